@@ -1,0 +1,105 @@
+"""What the pilot costs: a mission's wall time over that of bare JSBSim stepping the same frames.
+
+`python benchmarks/flight.py [MISSION]` prints one JSON line. The mission is flown as `harness fly` flies it:
+pilot at 24 Hz, checklists, log. After every 10 s of flight the same 10 s are stepped by a second, bare JSBSim
+of the same aircraft under the same commands, of which only the frames themselves are timed: both sides meet the
+same machine load and do the same physics.
+"""
+
+import json
+import os
+import sys
+from pathlib import Path
+from time import perf_counter
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+if sys.prefix == sys.base_prefix:  # not in an environment: use the project's own
+    import run
+
+    if problem := run.set_up():
+        sys.exit(run.fail(*problem))
+    os.execv(run.PYTHON, [str(run.PYTHON), __file__, *sys.argv[1:]])
+
+from harness.errors import HarnessError  # noqa: E402  the environment comes first
+from harness.flight import PILOT_RATE, fly_mission, prepare  # noqa: E402
+from harness.log import Event, FlightLog, Reporter  # noqa: E402
+from harness.session import Session  # noqa: E402
+from harness.state import Commands, State  # noqa: E402
+
+FRAME_RATE = 120
+SEGMENT = 10 * PILOT_RATE  # pilot steps
+
+
+class Interleaved:
+    """Observes a flight, and after every segment repeats its frames bare."""
+
+    def __init__(self, session: Session) -> None:
+        _, self._plant = prepare(session.mission, session.manual, rate=FRAME_RATE)
+        self._plant._frames = range(0)  # noqa: SLF001  `advance` then writes the commands and leaves the frames to us
+        self._commands: list[Commands] = []
+        self._timer = timer_cost()
+        self.flight_time = 0.0
+        self.bare_time = 0.0
+        self.frames = 0
+        self._mark = perf_counter()
+
+    def see(self, state: State, commands: Commands, pilot: Reporter) -> None:  # noqa: ARG002  an observer
+        """Remember the step; repeat the segment when it is full."""
+        self._commands.append(commands)
+        if len(self._commands) == SEGMENT:
+            self.close()
+
+    def note(self, event: Event) -> None:
+        """Events cost nothing here."""
+
+    def close(self) -> None:
+        """Account for the segment flown and step it bare."""
+        self.flight_time += perf_counter() - self._mark
+        step = self._plant.fdm.run
+        frames = range(FRAME_RATE // PILOT_RATE)
+        for commands in self._commands:
+            self._plant.advance(commands)
+            begin = perf_counter()
+            for _ in frames:
+                step()
+            self.bare_time += perf_counter() - begin - self._timer
+        self.frames += len(self._commands) * len(frames)
+        self._commands.clear()
+        self._mark = perf_counter()
+
+
+def timer_cost() -> float:
+    """Seconds between two readings of the clock with nothing in between."""
+    costs = []
+    for _ in range(1000):
+        begin = perf_counter()
+        costs.append(perf_counter() - begin)
+    return min(costs)
+
+
+def main(mission: str) -> None:
+    """Fly, and print the result."""
+    try:
+        session = Session(mission)
+        interleaved = Interleaved(session)
+        fly_mission(session.mission, session.manual, rate=FRAME_RATE, observers=[FlightLog(), interleaved])
+    except HarnessError as error:
+        sys.exit(f"benchmarks/flight.py: {error}")
+    interleaved.close()
+    result = {
+        "mission": mission,
+        "ratio": interleaved.flight_time / interleaved.bare_time,
+        "real_time_factor": interleaved.frames / FRAME_RATE / interleaved.flight_time,
+        "frame_us": interleaved.bare_time / interleaved.frames * 1e6,
+        "frames": interleaved.frames,
+    }
+    print(
+        json.dumps(
+            {key: round(value, 4) if isinstance(value, float) else value for key, value in result.items()}
+        )
+    )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1] if len(sys.argv) > 1 else "cologne-munich")

@@ -1,0 +1,1 @@
+"""What a finished flight tells: numbers and pictures made from its log alone."""

@@ -1,0 +1,198 @@
+"""The commands. Nothing heavy is imported until a command needs it."""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from harness import __version__, resources
+from harness.errors import FlightError, HarnessError, InputError
+
+if TYPE_CHECKING:
+    from harness.log import Run
+
+INTERRUPTED = 130
+DEFAULT_OUT = "runs"
+RATES = (120, 240, 480)
+
+
+class Parser(argparse.ArgumentParser):
+    """Refuses as the rest of the harness does: what is wrong, what would be right, exit code 2."""
+
+    def error(self, message: str) -> NoReturn:
+        """Raise what argparse has found wrong."""
+        raise InputError(message.rstrip(".") + ".", remedy=f"see: {self.prog} --help")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command. Exit codes: 0 done, 2 wrong input, 3 flight not completed, 130 interrupted."""
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    try:
+        chosen = parser().parse_args(words)
+        if chosen.command is None:
+            parser().print_help(sys.stderr)
+            return 2
+        return int(chosen.run(chosen))
+    except HarnessError as error:
+        return refuse(error, as_json="--json" in words)
+    except KeyboardInterrupt:
+        say("harness: interrupted")
+        return INTERRUPTED
+    except BrokenPipeError:
+        sys.stderr.close()  # the reader has left; nothing more to say to it
+        return 1
+
+
+def parser() -> Parser:
+    """Build the command line."""
+    top = Parser(prog="harness", description="Flies missions from XML, from stand to stand, without a human.")
+    top.add_argument("--version", action="version", version=f"harness {__version__}")
+    commands = top.add_subparsers(dest="command", metavar="COMMAND", title="commands")
+
+    flying = commands.add_parser(
+        "fly", help="fly a mission", description="Fly a mission and keep the run in a folder."
+    )
+    add_mission(flying)
+    flying.add_argument(
+        "--out", metavar="DIR", default=DEFAULT_OUT, help="folder for the run's folder (default: %(default)s)"
+    )
+    flying.add_argument(
+        "--rate", metavar="HZ", type=int, choices=RATES, default=120, help="frames a second: 120, 240 or 480"
+    )
+    flying.add_argument("--realtime", action="store_true", help="no faster than the clock on the wall")
+    add_json(flying)
+    flying.set_defaults(run=fly)
+
+    checking = commands.add_parser(
+        "check",
+        help="find what is wrong with a mission",
+        description="Everything that can be known without flying.",
+    )
+    add_mission(checking)
+    add_json(checking)
+    checking.set_defaults(run=check)
+
+    listing = commands.add_parser(
+        "list", help="missions, aircraft and scripts", description="What can be named."
+    )
+    add_json(listing)
+    listing.set_defaults(run=show_list)
+    return top
+
+
+def add_mission(command: argparse.ArgumentParser) -> None:
+    """The arguments that say which mission."""
+    command.add_argument("mission", metavar="MISSION", help="a name from `harness list`, or a mission file")
+    command.add_argument(
+        "--set",
+        dest="overrides",
+        metavar="PATH=VALUE",
+        action="append",
+        default=[],
+        help='change the mission, such as --set "loading/take-off-mass=110 t"; may be repeated',
+    )
+
+
+def add_json(command: argparse.ArgumentParser) -> None:
+    """The argument that asks for a machine-readable result."""
+    command.add_argument("--json", action="store_true", help="print the result as JSON, and nothing else")
+
+
+def fly(chosen: argparse.Namespace) -> int:
+    """`harness fly`."""
+    from harness.console import Console
+    from harness.session import Session
+
+    session = Session(chosen.mission, chosen.overrides)
+    console = Console(sys.stderr)
+    try:
+        run, stopped = session.fly(
+            out=chosen.out, rate=chosen.rate, realtime=chosen.realtime, progress=console
+        )
+    finally:
+        console.close()
+    if stopped is not None:
+        say(f"harness: {stopped}" if isinstance(stopped, FlightError) else "harness: interrupted")
+        say(f"    what was flown is in {run.folder}")
+    if chosen.json:
+        print_json({**run.summary, "folder": str(run.folder)})
+    elif stopped is None:
+        print(describe(run))
+    return 0 if stopped is None else stopped.exit_code if isinstance(stopped, FlightError) else INTERRUPTED
+
+
+def check(chosen: argparse.Namespace) -> int:
+    """`harness check`."""
+    from harness.session import Session
+
+    mission = Session(chosen.mission, chosen.overrides).mission
+    if chosen.json:
+        print_json({"mission": mission.name, "file": str(mission.source_path), "ok": True, "faults": []})
+    else:
+        print(f"{mission.source_path}: {mission.name} is fit to fly, as far as can be known without flying.")
+    return 0
+
+
+def show_list(chosen: argparse.Namespace) -> int:
+    """`harness list`."""
+    found = {
+        kind: {
+            name: {"file": str(path), "description": resources.description(path)}
+            for name, path in named.items()
+        }
+        for kind, named in (
+            ("missions", resources.missions()),
+            ("aircraft", resources.aircraft()),
+            ("scripts", resources.scripts()),
+        )
+    }
+    if chosen.json:
+        print_json(found)
+        return 0
+    for kind, entries in found.items():
+        print(f"{kind}:")
+        for name, entry in entries.items():
+            print(f"  {name:<20} {entry['description']}")
+    return 0
+
+
+def describe(run: "Run") -> str:
+    """A completed run in a few lines."""
+    facts = run.summary
+    return "\n".join(
+        (
+            f"{facts['mission']}: completed",
+            f"  flight time   {facts['flight_time_s'] / 60:.1f} min",
+            f"  block time    {facts['block_time_s'] / 60:.1f} min",
+            f"  distance      {facts['distance_km']:.1f} km",
+            f"  fuel          {facts['fuel_burned_kg']:.0f} kg",
+            f"  computed in   {facts['wall_time_s']:.1f} s, {facts['real_time_factor']:.0f} times real time",
+            f"  kept in       {run.folder}",
+        )
+    )
+
+
+def refuse(error: HarnessError, *, as_json: bool) -> int:
+    """Say what is wrong, on standard error, and for a machine on standard output."""
+    for fault in error.faults:
+        say(f"harness: {fault}")
+    if as_json:
+        print_json({"ok": False, "faults": [describe_fault(fault) for fault in error.faults]})
+    return error.exit_code
+
+
+def describe_fault(fault: HarnessError) -> dict[str, Any]:
+    """One fault as data."""
+    known = ("file", "line", "path", "what", "remedy")
+    return {"message": str(fault)} | {name: getattr(fault, name) for name in known if hasattr(fault, name)}
+
+
+def print_json(value: object) -> None:
+    """The machine-readable result, alone on standard output."""
+    print(json.dumps(value, indent=2, ensure_ascii=False))
+
+
+def say(text: str) -> None:
+    """What is meant for people goes to standard error."""
+    print(text, file=sys.stderr, flush=True)

@@ -1,0 +1,70 @@
+"""What a person sees while a flight runs: one live line on a terminal, and a plain line for what happens."""
+
+import time
+from typing import TextIO
+
+from harness.log import Event, Reporter
+from harness.state import Commands, State
+from harness.units import FT, KT, NM
+
+REFRESH = 0.2  # s, of the clock on the wall
+EVERY = 24  # pilot steps between two looks at that clock
+WIDTH = 110
+REPORTED = frozenset({"phase", "waypoint", "warning"})
+
+
+class Console:
+    """Watches a flight and shows it on `stream`."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+        self._live = stream.isatty()
+        self._countdown = 1
+        self._begin = time.monotonic()
+        self._shown = 0.0
+
+    def see(self, state: State, commands: Commands, pilot: Reporter) -> None:  # noqa: ARG002  an observer
+        """Refresh the live line now and then."""
+        self._countdown -= 1
+        if self._countdown:
+            return
+        self._countdown = EVERY
+        now = time.monotonic()
+        if self._live and now - self._shown >= REFRESH:
+            self._shown = now
+            self._stream.write(f"\r{live_line(state, pilot, now - self._begin):<{WIDTH}.{WIDTH}}")
+            self._stream.flush()
+
+    def note(self, event: Event) -> None:
+        """Write a line for what matters to someone who waits."""
+        if event.kind in REPORTED:
+            reason = f"  ({event.reason})" if event.reason else ""
+            self._clear()
+            self._stream.write(f"{clock(event.time)}  {event.kind:<8}  {event.name}{reason}\n")
+            self._stream.flush()
+
+    def close(self) -> None:
+        """Leave the cursor on a fresh line."""
+        self._clear()
+        self._stream.flush()
+
+    def _clear(self) -> None:
+        if self._live:
+            self._stream.write(f"\r{'':<{WIDTH}}\r")
+
+
+def live_line(state: State, pilot: Reporter, elapsed: float) -> str:
+    """Phase, modes, altitude, speed, distance to go and times real time, after `elapsed` s on the wall."""
+    modes = " ".join(f"{name}:{mode}" for name, mode in pilot.modes.items())
+    to_go = pilot.targets.get("distance_to_go", 0.0) / NM
+    faster = state.time / elapsed if elapsed > 0 else 0.0
+    return (
+        f"{clock(state.time)}  {pilot.phase:<16} {modes}  {state.altitude / FT:6.0f} ft"
+        f"  {state.cas / KT:3.0f} kt  {to_go:5.1f} NM to go  {faster:4.0f} x"
+    )
+
+
+def clock(seconds: float) -> str:
+    """Simulated time as h:mm:ss."""
+    minutes, second = divmod(int(seconds), 60)
+    return f"{minutes // 60}:{minutes % 60:02d}:{second:02d}"

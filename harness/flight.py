@@ -1,0 +1,105 @@
+"""fly_mission: the only place that knows both the pilot and the plant."""
+
+from collections.abc import Sequence
+from math import cos, sin
+from typing import Protocol
+
+from harness.errors import FlightError, TimeLimitError
+from harness.log import Event, Reporter
+from harness.manual import FlightManual
+from harness.mission.model import Mission
+from harness.navigation.database import Ils, Runway, load
+from harness.pilot.pilot import Pilot
+from harness.plant.jsbsim_plant import Air, JSBSimPlant, Loads, Placement
+from harness.resources import root
+from harness.state import Commands, State
+from harness.world import earth
+
+PILOT_RATE = 24  # pilot steps a second; every frame rate offered is a multiple
+TIME_LIMIT = 8 * 3600.0  # s: longer than the fuel of a transport aircraft of this class lasts at low level
+LINE_UP = 30.0  # m past the threshold, where a mission without a stand begins
+
+
+class Observer(Protocol):
+    """Sees every pilot step and every event; can change nothing."""
+
+    def see(self, state: State, commands: Commands, pilot: Reporter) -> None:
+        """Called once a pilot step."""
+
+    def note(self, event: Event) -> None:
+        """Called when something happens, before the step it happens in is seen."""
+
+
+def fly_mission(
+    mission: Mission,
+    manual: FlightManual,
+    *,
+    rate: int = 120,
+    observers: Sequence[Observer] = (),
+    time_limit: float = TIME_LIMIT,
+) -> None:
+    """Fly `mission` from its beginning until the pilot is done.
+
+    `rate` is frames a second, a multiple of PILOT_RATE. Raises FlightError when the mission cannot be completed.
+    """
+    pilot, plant = prepare(mission, manual, rate=rate)
+    pilot.listeners.extend(observer.note for observer in observers)
+    watch = [observer.see for observer in observers]
+    state = plant.state()
+    try:
+        while not pilot.done:
+            commands = pilot.act(state)
+            for see in watch:
+                see(state, commands, pilot)
+            state = plant.advance(commands)
+            if state.time > time_limit:
+                raise TimeLimitError(f"still flying after {time_limit:.0f} s", time=state.time, phase=pilot.phase)
+    except FlightError as error:
+        error.phase = pilot.phase
+        raise
+
+
+def prepare(mission: Mission, manual: FlightManual, *, rate: int) -> tuple[Pilot, JSBSimPlant]:
+    """Make the pilot and the plant of a mission, ready for the first step."""
+    database = load()
+    manual = manual.with_mission(mission)
+    departure = database.runway(mission.departure.airport, mission.departure.runway)
+    arrival = database.runway(mission.arrival.airport, mission.arrival.runway)
+    empty = manual.limits["operating-empty-mass"]
+    day = mission.environment
+    plant = JSBSimPlant(
+        root(),
+        mission.aircraft,
+        rate=rate,
+        frames_per_step=rate // PILOT_RATE,
+        placement=_placement(mission, departure),
+        loads=Loads(mission.loading.payload_of(empty), mission.loading.fuel),
+        air=Air(
+            day.isa_deviation, day.qnh, -day.wind_speed * cos(day.wind_from), -day.wind_speed * sin(day.wind_from)
+        ),
+        terrain=_Terrain(departure, arrival),
+    )
+    return Pilot(mission, manual, departure, Ils(arrival), 1.0 / PILOT_RATE), plant
+
+
+def _placement(mission: Mission, runway: Runway) -> Placement:
+    stand = mission.departure.stand
+    if stand is not None:
+        return Placement(stand.latitude, stand.longitude, stand.heading, runway.elevation)
+    latitude, longitude = runway.point(LINE_UP)
+    return Placement(latitude, longitude, runway.true_heading, runway.elevation)
+
+
+class _Terrain:
+    """The ground at the elevation of the nearer of the two runways: flat at each airport."""
+
+    def __init__(self, departure: Runway, arrival: Runway) -> None:
+        self._departure = departure
+        self._arrival = arrival
+
+    def __call__(self, latitude: float, longitude: float) -> float:
+        nearest = min(
+            (self._departure, self._arrival),
+            key=lambda runway: earth.inverse(latitude, longitude, runway.latitude, runway.longitude)[2],
+        )
+        return nearest.elevation

@@ -1,0 +1,316 @@
+"""Everything about a mission that can be known without flying: can this aircraft, loaded so, fly this route?"""
+
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from math import pi, tan
+from pathlib import Path
+from typing import NamedTuple
+
+from harness.errors import InputError, InputErrors, did_you_mean
+from harness.manual import FlightManual, read_manual, words_of
+from harness.mission.model import Leg, Mission, Position
+from harness.mission.reader import read_mission
+from harness.navigation.database import Database, Ils, Runway, load
+from harness.plan import PhasePlan
+from harness.plan_reader import check_plans, check_step
+from harness.units import DEG, FT, G0, HPA, KM, KT, NM, Level, Speed, show
+from harness.world import airspeed, atmosphere, earth
+from harness.xml_source import MOST_FAULTS
+
+TERRAIN_CLEARANCE = 1000 * FT
+STALL_MARGIN = 1.2  # of the clean stall speed, for a leg
+SLOWEST_DECISION = 0.8  # of the stall speed with those flaps: the slipstream lifts too, but not that much
+HARDEST_ACCELERATION = 0.5 * G0  # no transport aircraft gains or loses speed faster on a runway
+FARTHEST_TAXI = 10 * KM
+NEAREST_LAST_WAYPOINT = 3 * NM  # before the threshold: less leaves no room to line up
+SHORTEST_LEG = 100.0
+DAY = {
+    "isa-deviation": (-80.0, 60.0, "K", 1.0),
+    "qnh": (850 * HPA, 1090 * HPA, "hPa", HPA),
+    "wind-speed": (0.0, 60.0, "m/s", 1.0),
+}
+"""The weather that has been seen on Earth near the ground, rounded outwards (WMO archive of extremes)."""
+
+DECISION_SPEEDS = {"V1": "take-off", "VR": "take-off", "V2": "take-off", "VREF": "landing", "VAPP": "landing"}
+"""Speeds flown with these flaps, where the manual has both."""
+
+
+class Airspeeds(NamedTuple):
+    """One airspeed as calibrated airspeed (m/s) and as Mach number."""
+
+    cas: float
+    mach: float
+
+
+def check_file(path: str | Path, overrides: Iterable[str] = ()) -> Mission:
+    """Read a mission and its flight manual and check them against each other. Raises InputErrors."""
+    mission = read_mission(path, overrides)
+    check(mission, read_manual(mission.aircraft))
+    return mission
+
+
+def check(mission: Mission, manual: FlightManual, database: Database | None = None) -> None:
+    """Raise InputErrors with everything in the mission that this aircraft cannot do."""
+    faults = list(islice(_Checker(mission, manual, database or load()).faults(), MOST_FAULTS))
+    if faults:
+        raise InputErrors(faults)
+
+
+class _Checker:
+    """The checks of one mission; each yields its faults."""
+
+    def __init__(self, mission: Mission, manual: FlightManual, database: Database) -> None:
+        self.mission = mission
+        self.manual = manual
+        self.flown = manual.with_mission(mission)
+        self.departure = database.runway(mission.departure.airport, mission.departure.runway)
+        self.arrival = database.runway(mission.arrival.airport, mission.arrival.runway)
+        self.mass = mission.loading.total(manual.limits["operating-empty-mass"])
+
+    def faults(self) -> Iterator[InputError]:
+        """Every fault; those that only follow from a wrong mass or an impossible day are left out."""
+        basic = [*self._loading(), *self._environment()]
+        yield from basic
+        if not basic:
+            yield from self._decision_speeds()
+            for leg in self.mission.legs:
+                wrong_level = [*self._level(leg)]
+                yield from wrong_level or self._airspeed(leg)
+            yield from self._runways()
+        yield from self._route()
+        yield from self._last_waypoint()
+        yield from self._ground("departure", self.departure)
+        yield from self._ground("arrival", self.arrival)
+        yield from self._plans()
+
+    def _fault(self, path: str, what: str, remedy: str = "") -> InputError:
+        file, line = self.mission.place(path)
+        return InputError(what, file=file, line=line, remedy=remedy)
+
+    def _loading(self) -> Iterator[InputError]:
+        limits, fuel = self.manual.limits, self.mission.loading.fuel
+        payload = self.mission.loading.payload_of(limits["operating-empty-mass"])
+        given = "take-off-mass" if self.mission.loading.takeoff_mass is not None else "payload"
+        if fuel <= 0:
+            yield self._fault(
+                "loading/fuel", f"fuel={show(fuel, 't', 1)} is nothing to burn", "load some fuel"
+            )
+        if fuel > limits["fuel-capacity"]:
+            yield self._fault(
+                "loading/fuel",
+                f"{show(fuel, 't', 1)} of fuel is more than the tanks hold",
+                f"{self.manual.aircraft} holds {show(limits['fuel-capacity'], 't', 1)}",
+            )
+        elif payload < 0:
+            empty = show(limits["operating-empty-mass"], "t", 1)
+            yield self._fault(
+                f"loading/{given}",
+                f"the payload would be {show(payload, 't', 1)}: the empty aircraft has {empty}, the fuel {show(fuel, 't', 1)}",
+                "more take-off mass, or less fuel",
+            )
+        elif self.mass > limits["maximum-take-off-mass"]:
+            most = show(limits["maximum-take-off-mass"], "t", 1)
+            what = f"the take-off mass of {show(self.mass, 't', 1)} is above the limit of {most}"
+            yield self._fault(f"loading/{given}", what, "less payload or fuel")
+        elif self.mass - fuel > limits["maximum-zero-fuel-mass"]:
+            most = show(limits["maximum-zero-fuel-mass"], "t", 1)
+            what = f"the mass without fuel, {show(self.mass - fuel, 't', 1)}, is above the zero-fuel limit of {most}"
+            yield self._fault(f"loading/{given}", what, "less payload")
+        elif self.mass < limits["minimum-flight-mass"]:
+            least = show(limits["minimum-flight-mass"], "t", 1)
+            what = (
+                f"the take-off mass of {show(self.mass, 't', 1)} is below the minimum flight mass of {least}"
+            )
+            yield self._fault(f"loading/{given}", what, "more payload or fuel")
+
+    def _environment(self) -> Iterator[InputError]:
+        day = self.mission.environment
+        values = {"isa-deviation": day.isa_deviation, "qnh": day.qnh, "wind-speed": day.wind_speed}
+        for name, (low, high, unit, factor) in DAY.items():
+            if not low <= values[name] <= high:
+                what = f"{name} of {show(values[name], unit, 1)} has not been seen on Earth"
+                remedy = f"it lies between {low / factor:g} {unit} and {high / factor:g} {unit}"
+                yield self._fault(f"environment/{name}", what, remedy)
+
+    def _decision_speeds(self) -> Iterator[InputError]:
+        for name in self.mission.speeds:
+            path = f"aircraft/speed[{name}]/value"
+            if name not in self.manual.speeds:
+                what = f'{self.manual.aircraft} has no speed "{name}"'
+                yield self._fault(path, what, did_you_mean(name, self.manual.speeds))
+                continue
+            speed = self.flown.speed(name, self.mass)
+            low, high = self._decision_range(name)
+            remedy = f"the manual says {_knots(self.manual.speed(name, self.mass))}"
+            if speed > high:
+                what = f"{name} of {_knots(speed)} is above {_knots(high)}, the limit with these flaps"
+                yield self._fault(path, what, remedy)
+            elif speed < low:
+                yield self._fault(
+                    path, f"{name} of {_knots(speed)} is below {_knots(low)}, too slow to fly", remedy
+                )
+            else:
+                yield from self._order(name, path)
+
+    def _decision_range(self, name: str) -> tuple[float, float]:
+        """The lowest and the highest value of a named speed, m/s CAS."""
+        flaps = DECISION_SPEEDS.get(name, "up")
+        setting = next((setting for setting in self.manual.flaps if setting.name == flaps), None)
+        if setting is None:
+            return 0.0, self.manual.limits["VMO"]
+        slowest = SLOWEST_DECISION * self.manual.stall_speed(self.mass, flaps)
+        return slowest, min(self.manual.limits["VMO"], setting.maximum_speed)
+
+    def _order(self, changed: str, path: str) -> Iterator[InputError]:
+        for low, high in (("V1", "VR"), ("VR", "V2")):
+            if changed in (low, high) and {low, high} <= self.flown.speeds.keys():
+                slow, fast = self.flown.speed(low, self.mass), self.flown.speed(high, self.mass)
+                if slow > fast:
+                    what = f"{low} of {_knots(slow)} is above {high} of {_knots(fast)}"
+                    yield self._fault(path, what, "V1 <= VR <= V2")
+
+    def _airspeed(self, leg: Leg) -> Iterator[InputError]:
+        limits, path = self.manual.limits, f"route/waypoint[{leg.name}]/speed"
+        speed = self._speeds_of(leg.speed, leg.level)
+        slowest = STALL_MARGIN * self.manual.stall_speed(self.mass, "up")
+        said = f"{leg.name}: {leg.speed} at {leg.level}"
+        if speed.cas > limits["VMO"]:
+            as_cas = "" if leg.speed.kind == "CAS" else f" is {_knots(speed.cas)} CAS and"
+            yield self._fault(path, f"{said}{as_cas} is above VMO {_knots(limits['VMO'])}", "fly slower")
+        elif speed.mach > limits["MMO"]:
+            as_mach = "" if leg.speed.kind == "MACH" else f" is M{speed.mach:.3f} and"
+            yield self._fault(
+                path, f"{said}{as_mach} is above MMO M{limits['MMO']:g}", "fly slower, or lower"
+            )
+        elif speed.cas < slowest:
+            as_cas = "" if leg.speed.kind == "CAS" else f" is {_knots(speed.cas)} CAS and"
+            margin = f"{STALL_MARGIN:g} times the clean stall speed at {show(self.mass, 't', 1)}"
+            yield self._fault(
+                path, f"{said}{as_cas} is too slow", f"at least {_knots(slowest)} CAS: {margin}"
+            )
+
+    def _speeds_of(self, speed: Speed, level: Level) -> Airspeeds:
+        altitude = self._pressure_altitude(level)
+        pressure = atmosphere.pressure(altitude)
+        if speed.kind == "CAS":
+            return Airspeeds(speed.value, airspeed.mach_from_cas(speed.value, pressure))
+        mach = speed.value
+        if speed.kind == "TAS":
+            mach = airspeed.mach_from_tas(
+                speed.value, atmosphere.temperature(altitude, self.mission.environment.isa_deviation)
+            )
+        return Airspeeds(airspeed.cas_from_mach(mach, pressure), mach)
+
+    def _pressure_altitude(self, level: Level) -> float:
+        """Kept within the aircraft's reach: a level beyond it is a fault of its own."""
+        offset = 0.0 if level.kind == "FL" else atmosphere.pressure_altitude(self.mission.environment.qnh)
+        return min(max(level.altitude + offset, -1000.0), self.manual.limits["maximum-altitude"])
+
+    def _altitude(self, level: Level) -> float:
+        offset = atmosphere.pressure_altitude(self.mission.environment.qnh) if level.kind == "FL" else 0.0
+        return level.altitude - offset
+
+    def _level(self, leg: Leg) -> Iterator[InputError]:
+        path, highest = f"route/waypoint[{leg.name}]/level", self.manual.limits["maximum-altitude"]
+        if leg.level.altitude > highest:
+            what = f"{leg.name}: {leg.level} is above the maximum altitude of {self.manual.aircraft}"
+            yield self._fault(path, what, f"at most {show(highest, 'ft')}")
+        grounds = []
+        if leg.fix.station is not None and leg.fix.distance is None:
+            grounds.append((leg.fix.station.elevation, leg.fix.station.ident))
+        if leg is self.mission.legs[0]:
+            grounds.append(
+                (self.departure.elevation, f"{self.departure.airport} {self.departure.designator}")
+            )
+        if leg is self.mission.legs[-1]:
+            grounds.append((self.arrival.elevation, f"{self.arrival.airport} {self.arrival.designator}"))
+        ground, where = max(grounds, default=(0.0, "the sea"))
+        if self._altitude(leg.level) < ground + TERRAIN_CLEARANCE:
+            what = f"{leg.name}: {leg.level} is too low: {where} lies at {show(ground, 'ft')}"
+            yield self._fault(path, what, f"at least {show(ground + TERRAIN_CLEARANCE, 'ft')}")
+
+    def _route(self) -> Iterator[InputError]:
+        before, start = "the departure runway", Position(*self.departure.point(self.departure.length))
+        for leg in self.mission.legs:
+            path = f"route/waypoint[{leg.name}]"
+            bearing, arriving, distance = earth.inverse(*start, leg.fix.latitude, leg.fix.longitude)
+            if distance < SHORTEST_LEG:
+                what = f"{leg.name} lies where {before} does: the leg has no length"
+                yield self._fault(path, what, "delete one of them")
+            elif (
+                leg.course_true is not None
+                and leg.fix.distance is None
+                and _apart(leg.course_true, arriving) > pi / 2
+            ):
+                what = f"{leg.name}: the course of {leg.course_true / DEG:.0f} deg true leads away from its station"
+                yield self._fault(
+                    f"{path}/course", what, f"from {before} it lies {bearing / DEG:.0f} deg true"
+                )
+            before, start = leg.name, Position(leg.fix.latitude, leg.fix.longitude)
+
+    def _last_waypoint(self) -> Iterator[InputError]:
+        last, runway = self.mission.legs[-1], self.arrival
+        name = f"{runway.airport} {runway.designator}"
+        along = -runway.offset(last.fix.latitude, last.fix.longitude)[0]
+        path = f"route/waypoint[{last.name}]"
+        if along < NEAREST_LAST_WAYPOINT:
+            where = f"{show(along, 'NM', 1)} before" if along > 0 else "beyond"
+            what = f"{last.name}, the last waypoint, lies {where} the threshold of {name}: no room to line up"
+            yield self._fault(
+                path, what, f"put it at least {show(NEAREST_LAST_WAYPOINT, 'NM')} before the threshold"
+            )
+            return
+        glide = runway.elevation + along * tan(Ils.GLIDE_ANGLE)
+        if self._altitude(last.level) > glide + TERRAIN_CLEARANCE:
+            what = f"{last.name}, the last waypoint, is above the glide slope of {name}, {show(glide, 'ft')} there"
+            yield self._fault(f"{path}/level", what, "the slope is taken from below: lower, or farther out")
+
+    def _runways(self) -> Iterator[InputError]:
+        for part, runway, name in (("departure", self.departure, "VR"), ("arrival", self.arrival, "VREF")):
+            if name not in self.flown.speeds:
+                continue
+            speed = self.flown.speed(name, self.mass)
+            needed = speed**2 / (2 * HARDEST_ACCELERATION)
+            if runway.length < needed:
+                what = f"{runway.airport} {runway.designator} is {show(runway.length, 'm')} long"
+                yield self._fault(f"{part}/runway", what, f"{_knots(speed)} alone takes {show(needed, 'm')}")
+
+    def _ground(self, part: str, runway: Runway) -> Iterator[InputError]:
+        side = self.mission.departure if part == "departure" else self.mission.arrival
+        stand = [] if side.stand is None else [("stand", Position(side.stand.latitude, side.stand.longitude))]
+        for what, point in (*stand, *(("taxi", point) for point in side.taxi)):
+            distance = earth.inverse(*point, runway.latitude, runway.longitude)[2]
+            if distance > FARTHEST_TAXI:
+                told = f"the {what} is {show(distance, 'km', 1)} from {runway.airport} {runway.designator}"
+                yield self._fault(f"{part}/{what}", told, "latitude and longitude the wrong way round?")
+
+    def _plans(self) -> Iterator[InputError]:
+        words = words_of(self.flown)
+        yield from check_plans(self.mission.phases.values(), words)
+        for leg in self.mission.legs:
+            for action in leg.actions:
+                yield from check_step(action, words)
+        for plan in self.mission.phases.values():
+            yield from self._removals(plan)
+
+    def _removals(self, plan: PhasePlan) -> Iterator[InputError]:
+        mine = self.manual.phases.get(plan.name, PhasePlan(plan.name, (), ()))
+        items = [item for checklist in mine.checklists for item in checklist.items]
+        removed = [entry for entry in plan.steps if entry.remove]
+        names = [step.name for step in mine.steps]
+        gone = [(entry.name, entry.file, entry.line, names) for entry in removed]
+        names = [item.name for item in items]
+        for checklist in plan.checklists:
+            gone += [(item.name, item.file, item.line, names) for item in checklist.items if item.remove]
+        for name, file, line, known in gone:
+            if name not in known:
+                what = f'the manual has no "{name}" in {plan.name} to remove'
+                yield InputError(what, file=file, line=line, remedy=did_you_mean(name, known))
+
+
+def _knots(speed: float) -> str:
+    return f"{speed / KT:.0f} kt"
+
+
+def _apart(one: float, other: float) -> float:
+    return abs((one - other + pi) % (2 * pi) - pi)

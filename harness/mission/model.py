@@ -1,0 +1,128 @@
+"""A mission as the pilot reads it: SI and radians, every fix computed, nothing left to look up."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal, NamedTuple
+
+from harness.navigation.database import Station
+from harness.plan import PhasePlan, Step
+from harness.units import Level, Speed
+
+STANDARD_QNH = 101325.0
+
+Mode = Literal["homing", "tracking", "direct"]
+Turn = Literal["fly-by", "fly-over"]
+
+
+class Position(NamedTuple):
+    """A point on the ground, radians, WGS84."""
+
+    latitude: float
+    longitude: float
+
+
+class Stand(NamedTuple):
+    """Where the aircraft is parked, and its true heading. Radians."""
+
+    latitude: float
+    longitude: float
+    heading: float
+
+
+class Fix(NamedTuple):
+    """Where a leg ends, radians; `station` if it is on or defined by one, `distance` from it in metres if a DME fix."""
+
+    latitude: float
+    longitude: float
+    station: Station | None = None
+    distance: float | None = None
+
+
+class Leg(NamedTuple):
+    """One line of the route: fly to the fix, at this speed and level. `course_true` in radians, of tracking legs."""
+
+    name: str
+    fix: Fix
+    mode: Mode
+    course_true: float | None
+    speed: Speed
+    level: Level
+    turn: Turn
+    actions: tuple[Step, ...]
+    line: int
+
+
+class Loading(NamedTuple):
+    """What is on board at brake release, kg: fuel and either the take-off mass or the payload, the other is None."""
+
+    takeoff_mass: float | None
+    payload: float | None
+    fuel: float
+
+    def total(self, operating_empty_mass: float) -> float:
+        """The take-off mass, kg."""
+        if self.takeoff_mass is not None:
+            return self.takeoff_mass
+        return operating_empty_mass + (self.payload or 0.0) + self.fuel
+
+    def payload_of(self, operating_empty_mass: float) -> float:
+        """The payload, kg; negative if the take-off mass asked for is too small."""
+        if self.payload is not None:
+            return self.payload
+        return self.total(operating_empty_mass) - operating_empty_mass - self.fuel
+
+
+class Environment(NamedTuple):
+    """The day: deviation from ISA (K), QNH (Pa), where the wind comes from (true, rad) and how fast (m/s)."""
+
+    isa_deviation: float = 0.0
+    qnh: float = STANDARD_QNH
+    wind_from: float = 0.0
+    wind_speed: float = 0.0
+
+
+class Departure(NamedTuple):
+    """Where it begins: on the stand, then along `taxi` to the runway; without a stand lined up on the runway."""
+
+    airport: str
+    runway: str
+    stand: Stand | None
+    taxi: tuple[Position, ...]
+
+
+class Arrival(NamedTuple):
+    """Where it ends: on the stand, along `taxi` from the runway; without a stand stopped on the runway."""
+
+    airport: str
+    runway: str
+    taxi: tuple[Position, ...]
+    stand: Stand | None
+
+
+@dataclass(frozen=True)
+class Mission:
+    """All of a mission file.
+
+    `speeds` and `phases` change the flight manual for this mission only. `text` is the mission as flown, with its
+    variants and overrides applied. `places` tells where each part was written (file, line), by its override path.
+    """
+
+    name: str
+    description: str
+    aircraft: str
+    speeds: dict[str, Speed]
+    loading: Loading
+    environment: Environment
+    departure: Departure
+    legs: tuple[Leg, ...]
+    arrival: Arrival
+    phases: dict[str, PhasePlan]
+    source_path: Path
+    text: str
+    places: dict[str, tuple[str, int | None]] = field(default_factory=dict, compare=False)
+
+    def place(self, path: str) -> tuple[str, int | None]:
+        """File and line of a part such as `loading/fuel`, or of the element around it."""
+        while path not in self.places and path:
+            path = path.rpartition("/")[0]
+        return self.places.get(path, (str(self.source_path), 1))

@@ -1,0 +1,331 @@
+"""Reads a mission file into a Mission. Every fault has its file and line, and one reading reports them all."""
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import cast
+
+from lxml import etree
+
+from harness import resources
+from harness.errors import did_you_mean
+from harness.mission.model import (
+    Arrival,
+    Departure,
+    Environment,
+    Fix,
+    Leg,
+    Loading,
+    Mission,
+    Mode,
+    Position,
+    Stand,
+    Turn,
+)
+from harness.mission.overrides import Override, apply, from_option, path_of
+from harness.navigation.database import Database, Runway, Station, load
+from harness.plan_reader import read_phase, read_step
+from harness.units import DEG, Level, Speed, UnitError, parse, parse_direction, parse_level, parse_speed
+from harness.world import earth
+from harness.xml_source import NAN, Element, Source, children
+
+SCHEMA = "mission.xsd"
+
+
+_NO_SPEED = Speed("CAS", NAN)
+_NO_LEVEL = Level("ALT", NAN)
+
+
+def read_mission(
+    path: str | Path, overrides: Iterable[str] = (), database: Database | None = None
+) -> Mission:
+    """Read a mission file, with `PATH=VALUE` overrides applied.
+
+    Raises InputErrors: what is wrong in the file by itself, and stations and runways that do not exist.
+    Whether the aircraft can fly it is for `harness.mission.check`.
+    """
+    source = _source(Path(path))
+    for override in overrides:
+        apply(source, from_option(override))
+    source.validate()
+    mission = _Reader(source, database or load()).mission()
+    source.finish()
+    return mission
+
+
+def _source(path: Path) -> Source:
+    """The mission's tree; of a variant, the tree of its base with the variant's values set."""
+    source = Source(path, SCHEMA, "mission", "variant")
+    if source.root.tag == "mission":
+        return source
+    source.validate()
+    of = source.root.get("of", "")
+    base_path = path.with_name(f"{of}.xml")
+    if base_path == path or not base_path.is_file():
+        others = [other.stem for other in path.parent.glob("*.xml") if other != path]
+        source.fault(
+            f'of="{of}" is not a mission in the same folder', source.root, "of", did_you_mean(of, others)
+        )
+        source.finish()
+    base = Source(base_path, SCHEMA, "mission")
+    base.root.set("name", source.root.get("name", ""))
+    description = source.one(source.root, "description", needed=False)
+    source.finish()
+    if description is not None:
+        apply(base, Override("description", description.text or "", *source.place(description)))
+    for line in children(source.root, "set"):
+        apply(base, Override(line.get("path", ""), line.get("value", ""), *source.place(line)))
+    return base
+
+
+class _Reader:
+    """Turns the elements of one mission into its model; faults are noted in the source."""
+
+    def __init__(self, source: Source, database: Database) -> None:
+        self.source = source
+        self.database = database
+
+    def mission(self) -> Mission:
+        """The mission; parts with faults hold NaN and the like, so the caller must look at the faults."""
+        root = self.source.root
+        description = self.source.one(root, "description", needed=False)
+        aircraft = self.source.one(root, "aircraft")
+        environment = self.source.one(root, "environment", needed=False)
+        route = self.source.one(root, "route")
+        phases = list(children(root, "phase"))
+        self.source.distinct(phases, "name")
+        return Mission(
+            name=root.get("name", ""),
+            description=" ".join((description.text or "").split()) if description is not None else "",
+            aircraft=self._aircraft(aircraft),
+            speeds=self._speeds(aircraft),
+            loading=self._loading(self.source.one(root, "loading")),
+            environment=self._environment(environment),
+            departure=self._departure(self.source.one(root, "departure")),
+            legs=self._legs(route),
+            arrival=self._arrival(self.source.one(root, "arrival")),
+            phases={phase.get("name", ""): read_phase(self.source, phase) for phase in phases},
+            source_path=self.source.path,
+            text=etree.tostring(root.getroottree(), encoding="unicode"),
+            places=self._places(),
+        )
+
+    def _aircraft(self, element: Element | None) -> str:
+        name = "" if element is None else element.get("name", "")
+        if element is not None and name not in resources.aircraft():
+            what = f'there is no aircraft "{name}"'
+            self.source.fault(what, element, "name", did_you_mean(name, resources.aircraft()))
+        return name
+
+    def _places(self) -> dict[str, tuple[str, int | None]]:
+        """Where each element was written, and each value that an override put there."""
+        changed = {(element, attribute) for element, attribute in self.source.origins if attribute}
+        places = {path_of(element): self.source.place(element) for element in self.source.root.iter("*")}
+        return places | {
+            f"{path_of(element)}/{attribute}": self.source.place(element, attribute)
+            for element, attribute in changed
+        }
+
+    def _speeds(self, aircraft: Element | None) -> dict[str, Speed]:
+        elements = [] if aircraft is None else list(children(aircraft, "speed"))
+        self.source.distinct(elements, "name")
+        return {
+            element.get("name", ""): self.source.read(element, "value", _decision_speed, _NO_SPEED)
+            for element in elements
+        }
+
+    def _loading(self, element: Element | None) -> Loading:
+        if element is None:
+            return Loading(None, None, NAN)
+        if (element.get("take-off-mass") is None) == (element.get("payload") is None):
+            self.source.fault(
+                "<loading> needs the fuel and either the take-off mass or the payload",
+                element,
+                remedy='write <loading take-off-mass="100 t" fuel="12 t"/>, or payload= in place of take-off-mass=',
+            )
+        return Loading(
+            self.source.quantity(element, "take-off-mass", "mass") if element.get("take-off-mass") else None,
+            self.source.quantity(element, "payload", "mass") if element.get("payload") else None,
+            self.source.quantity(element, "fuel", "mass"),
+        )
+
+    def _environment(self, element: Element | None) -> Environment:
+        day = Environment()
+        if element is None:
+            return day
+        if element.get("wind-speed") is not None and element.get("wind-from") is None:
+            self.source.fault(
+                "a wind-speed needs a wind-from", element, "wind-speed", remedy='add wind-from="270 deg true"'
+            )
+        return Environment(
+            self.source.quantity(element, "isa-deviation", "temperature-difference", day.isa_deviation),
+            self.source.quantity(element, "qnh", "pressure", day.qnh),
+            self.source.read(element, "wind-from", _true_direction, day.wind_from),
+            self.source.quantity(element, "wind-speed", "speed", day.wind_speed),
+        )
+
+    def _departure(self, element: Element | None) -> Departure:
+        airport, runway, taxi, stand = self._airport(element)
+        return Departure(airport, runway, stand, taxi)
+
+    def _arrival(self, element: Element | None) -> Arrival:
+        return Arrival(*self._airport(element))
+
+    def _airport(self, element: Element | None) -> tuple[str, str, tuple[Position, ...], Stand | None]:
+        if element is None:
+            return "", "", (), None
+        runway = self._runway(element)
+        stand = self.source.one(element, "stand", needed=False)
+        taxi = self.source.one(element, "taxi", needed=False)
+        if taxi is not None and stand is None:
+            self.source.fault(
+                "<taxi> leads to no <stand>", taxi, remedy="add a <stand>, or delete the <taxi>"
+            )
+        points = [] if taxi is None else list(children(taxi, "point"))
+        return (
+            runway.airport if runway else "",
+            runway.designator if runway else "",
+            tuple(Position(*self._coordinates(point)) for point in points),
+            None
+            if stand is None
+            else Stand(*self._coordinates(stand), self.source.read(stand, "heading", _true_direction, NAN)),
+        )
+
+    def _runway(self, element: Element) -> Runway | None:
+        try:
+            return self.database.runway(element.get("airport", ""), element.get("runway", ""))
+        except LookupError as error:
+            self._not_found(error, element, "runway")
+            return None
+
+    def _legs(self, route: Element | None) -> tuple[Leg, ...]:
+        waypoints = [] if route is None else list(children(route, "waypoint"))
+        self.source.distinct(waypoints, "name")
+        return tuple(self._leg(waypoint) for waypoint in waypoints)
+
+    def _leg(self, element: Element) -> Leg:
+        mode = cast(Mode, element.get("mode"))  # the schema has checked these two
+        station = self._station(element)
+        course = self._course(element, mode, station)
+        turn = cast(Turn, element.get("turn", "fly-by" if mode == "direct" else "fly-over"))
+        return Leg(
+            name=element.get("name", ""),
+            fix=self._fix(element, mode, station, course),
+            mode=mode,
+            course_true=course,
+            speed=self.source.read(element, "speed", parse_speed, _NO_SPEED),
+            level=self.source.read(element, "level", parse_level, _NO_LEVEL),
+            turn=turn,
+            actions=tuple(read_step(self.source, action) for action in children(element, "action")),
+            line=self.source.place(element)[1] or 1,
+        )
+
+    def _station(self, element: Element) -> Station | None:
+        ident = element.get("station")
+        if ident is None:
+            return None
+        try:
+            return self.database.station(ident)
+        except LookupError as error:
+            self._not_found(error, element, "station")
+            return None
+
+    def _course(self, element: Element, mode: Mode, station: Station | None) -> float | None:
+        if mode != "tracking":
+            if element.get("course") is not None:
+                what = f"a {mode} leg has no course"
+                self.source.fault(what, element, "course", 'delete it, or write mode="tracking"')
+            return None
+        if not self.source.needed(element, "course", "148 deg magnetic"):
+            return None
+        course, magnetic = self.source.read(element, "course", parse_direction, (NAN, False))
+        if magnetic and station is not None:
+            course = (course + station.declination) % (360 * DEG)
+        return course
+
+    def _fix(self, element: Element, mode: Mode, station: Station | None, course: float | None) -> Fix:
+        placed = element.get("latitude") is not None or element.get("longitude") is not None
+        if (element.get("station") is not None) == placed:
+            self.source.fault(
+                "a waypoint is either at a station or at a latitude and a longitude",
+                element,
+                remedy='write station="COL", or latitude="48.35 deg" longitude="11.79 deg"',
+            )
+            return Fix(NAN, NAN)
+        if placed:
+            return self._place(element, mode)
+        if station is None:
+            return Fix(NAN, NAN)
+        if mode != "direct" and not station.has_bearing:
+            what = f"{station.ident} is a {station.kind}: it gives no bearing to fly a {mode} leg by"
+            self.source.fault(what, element, "station", 'write mode="direct", or choose another station')
+        if element.get("distance") is None:
+            return Fix(station.latitude, station.longitude, station)
+        return self._dme_fix(element, station, course)
+
+    def _place(self, element: Element, mode: Mode) -> Fix:
+        for attribute in ("latitude", "longitude"):
+            self.source.needed(element, attribute, "48.35 deg")
+        if mode != "direct":
+            what = f"a {mode} leg needs a station to receive"
+            self.source.fault(what, element, remedy='name one with station="...", or write mode="direct"')
+        if element.get("distance") is not None:
+            self.source.fault(
+                "a distance needs a station to measure it from", element, "distance", "delete it"
+            )
+        return Fix(*self._coordinates(element))
+
+    def _dme_fix(self, element: Element, station: Station, course: float | None) -> Fix:
+        distance = self.source.quantity(element, "distance", "length")
+        if course is None:
+            if element.get("mode") != "tracking":
+                what = "only a tracking leg can end at a distance from its station"
+                self.source.fault(
+                    what, element, "distance", 'delete it, or write mode="tracking" course="..."'
+                )
+        elif not station.has_dme:
+            self.source.fault(f"{station.ident} is a {station.kind}: it has no DME", element, "distance")
+        elif not 0 < distance <= earth.MEAN_RADIUS:
+            if distance == distance:  # NaN has been told already
+                text = element.get("distance")
+                self.source.fault(
+                    f'distance="{text}" is not a distance from the station', element, "distance"
+                )
+        elif course == course:
+            return Fix(
+                *earth.direct(station.latitude, station.longitude, course, distance), station, distance
+            )
+        return Fix(station.latitude, station.longitude, station)
+
+    def _coordinates(self, element: Element) -> tuple[float, float]:
+        return (
+            self.source.read(element, "latitude", lambda text: _within(text, 90), NAN),
+            self.source.read(element, "longitude", lambda text: _within(text, 180), NAN),
+        )
+
+    def _not_found(self, error: LookupError, element: Element, attribute: str) -> None:
+        what, _, remedy = str(error.args[0]).partition("; ")
+        self.source.fault(what, element, attribute, remedy)
+
+
+def _decision_speed(text: str) -> Speed:
+    speed = parse_speed(text)
+    if speed.kind != "CAS":
+        raise UnitError(f'"{text}" is not a calibrated airspeed; decision speeds are, e.g. 121 kt CAS')
+    return speed
+
+
+def _true_direction(text: str) -> float:
+    direction, magnetic = parse_direction(text)
+    if magnetic:
+        raise UnitError(
+            f'"{text}" is magnetic, but there is no station here to take the declination from; write true'
+        )
+    return direction
+
+
+def _within(text: str, degrees: float) -> float:
+    angle = parse(text, "angle")
+    if abs(angle) > degrees * DEG:
+        raise UnitError(f'"{text}" is beyond {degrees} deg')
+    return angle

@@ -1,0 +1,1 @@
+"""Radio aids and runways: where they stand and what a receiver shows."""

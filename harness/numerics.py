@@ -1,0 +1,35 @@
+"""Small pieces of arithmetic that every controller needs."""
+
+from math import pi
+
+
+def clamp(value: float, low: float, high: float) -> float:
+    """`value` held between `low` and `high`."""
+    return low if value < low else high if value > high else value
+
+
+def wrap(angle: float) -> float:
+    """`angle` (rad) brought into [-pi, pi)."""
+    return (angle + pi) % (2.0 * pi) - pi
+
+
+def approach(value: float, target: float, step: float) -> float:
+    """`value` moved towards `target` by at most `step`."""
+    return target if abs(target - value) <= step else value + step if target > value else value - step
+
+
+class LowPass:
+    """First-order lag with time constant `tau` (s), exact for an input held over the step."""
+
+    __slots__ = ("tau", "value")
+
+    def __init__(self, tau: float, value: float = 0.0) -> None:
+        self.tau = tau
+        self.value = value
+
+    def reset(self, value: float) -> None:
+        self.value = value
+
+    def update(self, target: float, dt: float) -> float:
+        self.value += (target - self.value) * dt / (self.tau + dt)
+        return self.value

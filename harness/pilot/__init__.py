@@ -1,0 +1,1 @@
+"""The mathematical pilot: phases, procedures, checklists, modes and controllers. Knows nothing of JSBSim."""

@@ -1,0 +1,69 @@
+"""The graph of flight phases, and nothing else (AIAA 2010-7777 Figs. 4 to 6)."""
+
+from typing import Any
+
+from transitions.extensions import HierarchicalGraphMachine, HierarchicalMachine
+from transitions.extensions.nesting import NestedState
+
+from harness.vocabulary import EDGES, PHASES
+
+START = "TXY.out"
+END = "END"
+
+
+class _PhaseState(NestedState):  # type: ignore[misc]
+    separator = "."
+
+
+class _PhaseMachine(HierarchicalMachine):  # type: ignore[misc]
+    state_cls = _PhaseState
+
+
+class _DrawnPhaseMachine(HierarchicalGraphMachine):  # type: ignore[misc]
+    state_cls = _PhaseState
+
+
+def _states() -> list[str | dict[str, Any]]:
+    """PHASES as transitions wants them: groups with their sub-phases as children."""
+    groups: dict[str, list[str]] = {}
+    for phase in PHASES:
+        group, _, child = phase.partition(".")
+        groups.setdefault(group, [])
+        if child:
+            groups[group].append(child)
+    return [
+        {"name": group, "children": children} if children else group for group, children in groups.items()
+    ]
+
+
+def _arguments() -> dict[str, Any]:
+    return {
+        "states": _states(),
+        "transitions": [{"trigger": f"enter {b}", "source": a, "dest": b} for a, b in EDGES],
+        "initial": START,
+        "auto_transitions": False,
+        "send_event": False,
+    }
+
+
+class PhaseGraph:
+    """Where in the mission the pilot is. Only the edges of the graph can be taken."""
+
+    state: str
+
+    def __init__(self) -> None:
+        self._machine = _PhaseMachine(model=self, **_arguments())
+
+    def enter(self, phase: str) -> None:
+        """Move along the edge to `phase`.
+
+        Raises transitions.MachineError when there is no such edge from the present phase.
+        """
+        self.trigger(f"enter {phase}")  # type: ignore[attr-defined]
+
+
+def diagram() -> str:
+    """The phase graph as Mermaid text, drawn from the machine itself."""
+    model = PhaseGraph.__new__(PhaseGraph)
+    machine = _DrawnPhaseMachine(model=model, graph_engine="mermaid", **_arguments())
+    return str(machine.get_combined_graph().source)

@@ -1,0 +1,424 @@
+"""The mathematical pilot: reads checklists, carries out procedures, and flies with the modes they select (Fig. 2)."""
+
+from collections.abc import Callable, Mapping, Sequence
+from math import hypot, inf, nan
+from typing import NamedTuple
+
+from harness.errors import OverrunError, StuckError
+from harness.log.run import Event
+from harness.manual import FlightManual
+from harness.mission.model import Leg, Mission
+from harness.navigation.database import Ils, Runway
+from harness.numerics import approach, clamp, wrap
+from harness.pilot.checklist import Item, OpenChecklist, item, prepared
+from harness.pilot.ground import Centreline, GroundSteering, TaxiPath
+from harness.pilot.machine import END, START, PhaseGraph
+from harness.pilot.modes.horizontal import HorizontalMode
+from harness.pilot.modes.speed import SpeedMode
+from harness.pilot.modes.vertical import VerticalMode
+from harness.pilot.route import NavigationComputer, Passage
+from harness.plan import Step
+from harness.plan_reader import parse_reference
+from harness.state import Commands, State
+from harness.units import parse
+from harness.vocabulary import CONTROLS
+from harness.world.local import LocalFrame
+
+ROUTE_PERIOD = 3  # pilot steps between two looks at the route: positions change slowly
+DEFAULT_TIME_LIMIT = 7200.0  # s in one phase, where the manual says nothing
+OVERRUN_MARGIN = 5.0  # m past the end or the edge of the runway
+
+
+class _ReadyStep(NamedTuple):
+    """A procedure step with its conditions looked up."""
+
+    step: Step
+    when: tuple[Item, ...]
+
+
+class Pilot:
+    """Flies one mission with one flight manual. `act` is called once a pilot step and remembers what it needs."""
+
+    def __init__(
+        self, mission: Mission, manual: FlightManual, departure: Runway, arrival: Ils, step: float
+    ) -> None:
+        """`step` is the time between two calls of `act`, s."""
+        self.mission = mission
+        self.manual = manual
+        self.step = step
+        gains = dict(manual.gains)
+        self.route = NavigationComputer(mission.legs, arrival, mission.environment.qnh, gains["bank-limit"])
+        self.route.on_passage = self._passed
+        self.speed_mode = SpeedMode(gains)
+        self.vertical = VerticalMode(gains)
+        self.horizontal = HorizontalMode(gains)
+        self.steering = GroundSteering(gains)
+        self.controls = dict.fromkeys(CONTROLS, "DIRECT")
+        self.inner = "AIRCRAFT"
+        self.phase_begin = 0.0
+        self.target_cas = 0.0
+        self.taxi_distance = inf
+        self.listeners: list[Callable[[Event], None]] = []
+        self._graph = PhaseGraph()
+        self.phase = START
+        self._departure = departure
+        self._arrival = arrival.runway
+        self._runway = departure
+        self._centreline = Centreline(departure.latitude, departure.longitude, departure.true_heading)
+        self._taxi: TaxiPath | None = None
+        self._settings = Commands()
+        self._braking = 0.0  # taxi brakes
+        self._speed_words = "leg-speed"
+        self._speed_value = 0.0
+        self._steps: Sequence[_ReadyStep] = ()
+        self._next_step = 0
+        self._checklists: Sequence[OpenChecklist] = ()
+        self._time_limit = DEFAULT_TIME_LIMIT
+        self._count = 0
+        self._modes: dict[str, str] = {}
+        self._state: State | None = None
+        self._rename_modes()
+
+    @property
+    def done(self) -> bool:
+        """The mission is complete."""
+        return self.phase == END
+
+    @property
+    def modes(self) -> Mapping[str, str]:
+        """Each super-mode with its sub-mode."""
+        return self._modes
+
+    @property
+    def targets(self) -> Mapping[str, float]:
+        """What the pilot aims at, SI; NaN where nothing is aimed at."""
+        airborne = self._route_active() and self._state is not None
+        return {
+            "cas": self.target_cas if self.speed_mode.sub_mode != "OFF" else nan,
+            "level": self.route.leg.level.altitude if airborne else nan,
+            "level_error": self.route.level_error(self._state) if airborne and self._state else nan,
+            "cross_track": self.route.guidance.cross_track if airborne else nan,
+            "localizer_dots": self.route.localizer.dots if self._on_approach() else nan,
+            "glide_slope_dots": self.route.glide_slope.dots if self._on_approach() else nan,
+            "distance_to_go": self.route.distance_to_go if airborne else nan,
+        }
+
+    @property
+    def waiting(self) -> Sequence[tuple[str, Sequence[Item]]]:
+        """For each way out of the phase, the checklist items that are still open."""
+        if self._state is None:
+            return ()
+        return [(checklist.to, checklist.waiting(self, self._state)) for checklist in self._checklists]
+
+    def act(self, state: State) -> Commands:
+        """Decide, from the aircraft's state, what to command now.
+
+        Raises StuckError when a phase lasts too long, OverrunError when the runway has been left.
+        """
+        self._state = state
+        if self._count == 0:
+            self._enter(START, state, "start of the mission")
+        self._navigate(state)
+        self._count += 1
+        for checklist in self._checklists:
+            if checklist.complete(self, state):
+                self._proceed(checklist, state)
+                break
+        else:
+            if state.time - self.phase_begin > self._time_limit:
+                self._give_up(state)
+        while self._next_step < len(self._steps) and self._ready(self._steps[self._next_step], state):
+            ready = self._steps[self._next_step].step
+            self._next_step += 1
+            self.carry_out(ready, state)
+        return self._control(state)
+
+    # What conditions measure.
+
+    def level_captured(self, state: State) -> bool:
+        """Whether the wanted level is near enough to round out towards it."""
+        reach = abs(state.vertical_speed) * self.manual.gains["level-time-constant"]
+        return abs(self.route.level_error(state)) <= max(reach, 30.0)
+
+    def runway_offset(self, state: State) -> tuple[float, float]:
+        """Return (metres past the threshold, metres right of the centreline) of the runway in use."""
+        return self._centreline.offset(state)
+
+    def heading_error(self, state: State) -> float:
+        """Angle from the runway's direction to the nose."""
+        return wrap(state.heading - self._centreline.heading)
+
+    def named_speed(self, name: str, mass: float) -> float:
+        """A speed or speed limit of the flight manual, m/s CAS."""
+        return self.manual.limits[name] if name in self.manual.limits else self.manual.speed(name, mass)
+
+    # Procedures.
+
+    def carry_out(self, step: Step, state: State) -> None:
+        """Do one step of a procedure."""
+        action = step.action
+        if "set" in action:
+            self._set(action["set"], action["to"], state)
+        else:
+            self._select(action, state)
+        words = " ".join(f"{key}={value}" for key, value in action.items())
+        self._note("procedure", step.name, words)
+
+    def _ready(self, ready: _ReadyStep, state: State) -> bool:
+        return all(condition.holds(self, state) for condition in ready.when)
+
+    def _set(self, name: str, to: str, state: State) -> None:
+        if name == "thrust":
+            lever = self.manual.thrust[to]
+            self.speed_mode.lever = lever
+            self.speed_mode.highest_lever = max(lever, self.manual.thrust["climb"])
+        elif name == "flaps":
+            self._settings = self._settings._replace(flap=self.manual.flap(to).position)
+        elif name == "gear":
+            self._settings = self._settings._replace(gear=float(to == "down"))
+        elif name == "course":
+            self.horizontal.track = self._centreline.heading
+        else:
+            field = {"ground-spoilers": "spoiler", "brakes": "brake"}.get(name, name)
+            self._settings = self._settings._replace(**{field: parse(to, "ratio")})
+
+    def _select(self, action: Mapping[str, str], state: State) -> None:
+        mode, to = action["mode"], action["to"]
+        if mode == "CTRL":
+            self.controls[action["control"]] = to
+            if action["control"] == "thrust" and to == "DIRECT":
+                self.speed_mode.select("OFF")
+        elif mode == "INN":
+            self.inner = to
+        elif mode == "SPD":
+            self.speed_mode.select(to)
+            self.controls["thrust"] = "CONTROLLER" if to == "THR" else "DIRECT"
+            if to != "OFF":
+                self._aim_speed(action["speed"], state.mass)
+        elif mode == "HP":
+            self.horizontal.select(to, state)
+            self.horizontal.guidance = action.get("guidance", "")
+            if to == "ATT":
+                self.horizontal.bank = parse(action["bank"], "angle")
+            elif to == "PATH":
+                self._aim_track(action["track"], state)
+            self.controls["aileron"] = "CONTROLLER"
+        else:
+            self.vertical.select(to, state)
+            self.vertical.guidance = action.get("guidance", "")
+            if to == "ATT":
+                self.vertical.attitude = parse(action["pitch"], "angle")
+            elif to == "PATH":
+                self._aim_path(action)
+            self.controls["elevator"] = "CONTROLLER"
+        self._rename_modes()
+
+    def _aim_speed(self, words: str, mass: float) -> None:
+        self._speed_words = words
+        if words not in ("leg-speed", "taxi"):
+            reference = parse_reference(words, "speed-target")
+            named = self.named_speed(reference.name, mass) if reference.name else 0.0
+            self._speed_value = named + reference.offset
+
+    def _aim_track(self, words: str, state: State) -> None:
+        if words == "runway":
+            self.horizontal.track = self._centreline.heading
+        elif words == "present":
+            self.horizontal.track = state.heading
+        else:
+            self.horizontal.track = parse(words, "angle")
+
+    def _aim_path(self, action: Mapping[str, str]) -> None:
+        self.vertical.vertical_speed = None
+        if "vertical-speed" in action:
+            self.vertical.vertical_speed = parse(action["vertical-speed"], "vertical-speed")
+        elif action["angle"] in ("by-speed", "flare"):
+            self.vertical.angle = action["angle"]
+        else:
+            self.vertical.angle = parse(action["angle"], "angle")
+
+    # Phases.
+
+    def _proceed(self, checklist: OpenChecklist, state: State) -> None:
+        for entry in checklist.items:
+            reason = f"{entry.achieved(self, state)}, {entry.wanted(state)}"
+            self._note("checklist", entry.condition.name, reason)
+        self._graph.enter(checklist.to)
+        names = ", ".join(entry.condition.name for entry in checklist.items)
+        self._enter(checklist.to, state, names)
+
+    def _enter(self, phase: str, state: State, reason: str) -> None:
+        self.phase = phase
+        self.phase_begin = state.time
+        self._note("phase", phase, reason)
+        if phase.startswith(("APP", "LDG")) and self._runway is not self._arrival:
+            self._use_runway(self._arrival)
+        if phase.startswith("TXY"):
+            self._plan_taxi(phase, state)
+        plan = self.manual.phases.get(phase)
+        self._steps = ()
+        self._checklists = ()
+        self._next_step = 0
+        self._time_limit = self.manual.gains.get(f"time-limit {phase}", DEFAULT_TIME_LIMIT)
+        if plan is not None:
+            self._steps = [
+                _ReadyStep(step, tuple(item(when, self, state.mass) for when in step.when)) for step in plan.steps
+            ]
+            self._checklists = [prepared(checklist, self, state.mass) for checklist in plan.checklists]
+
+    def _use_runway(self, runway: Runway) -> None:
+        self._runway = runway
+        self._centreline = Centreline(runway.latitude, runway.longitude, runway.true_heading)
+        self.steering.reset()
+
+    def _plan_taxi(self, phase: str, state: State) -> None:
+        out = phase == "TXY.out"
+        points = self.mission.departure.taxi if out else self.mission.arrival.taxi
+        stand = None if out else self.mission.arrival.stand
+        ends = [*points, *([(stand.latitude, stand.longitude)] if stand else [])]
+        if not ends:
+            self._taxi, self.taxi_distance = None, 0.0
+            return
+        frame = LocalFrame(state.latitude, state.longitude)
+        corners = [frame.point(state.latitude, state.longitude), *(frame.point(*point) for point in ends)]
+        gains = self.manual.gains
+        self._taxi = TaxiPath(frame, corners, gains["taxi-turn-radius"], gains["taxi-speed"])
+
+    def _give_up(self, state: State) -> None:
+        # Of several ways out, the one with the fewest open items is the one the flight was on.
+        ways = [checklist.waiting(self, state) for checklist in self._checklists]
+        open_items = min(ways, key=len) if ways else []
+        first = open_items[0] if open_items else None
+        raise StuckError(
+            f"not over after {self._time_limit:.0f} s",
+            time=state.time,
+            phase=self.phase,
+            waiting=first.condition.name if first else "",
+            required=first.wanted(state) if first else "",
+            achieved=first.achieved(self, state) if first else "",
+            knob=f"{first.condition.file}:{first.condition.line} states the item; change it, the mass or the thrust"
+            if first
+            else "",
+        )
+
+    def _passed(self, leg: Leg, passage: Passage) -> None:
+        self._note("waypoint", leg.name, f"{leg.mode}, {leg.speed}, {leg.level}")
+        for step in leg.actions:
+            if self._state is not None:
+                self.carry_out(step, self._state)
+
+    # Flying.
+
+    def _route_active(self) -> bool:
+        return self.phase.startswith(("DEP", "ENR", "M/A", "APP"))
+
+    def _on_approach(self) -> bool:
+        return self.phase.startswith(("APP", "LDG"))
+
+    def _navigate(self, state: State) -> None:
+        if self._count % ROUTE_PERIOD == 0:
+            if self._on_approach():
+                self.route.update_approach(state)
+            elif self._route_active():
+                if self.route.waypoints_remaining:
+                    self.route.update(state)
+                else:
+                    self.route.update_approach(state)
+
+    def _control(self, state: State) -> Commands:
+        speed, vertical, dt = self.speed_mode, self.vertical, self.step
+        words = self._speed_words
+        self.target_cas = self.route.target_cas if words == "leg-speed" else self._speed_value
+        bank = self.horizontal.update(state, self.route.guidance)
+        path = speed.path(state, self.target_cas) if speed.sub_mode == "PITCH" else 0.0
+        level_error = self.route.level_error(state)
+        pitch = vertical.update(
+            state, level_error, self.route.glide_slope, self.route.distance_to_threshold, path, dt
+        )
+        settings = self._settings
+        brake, wheel, rudder, coordinate = settings.brake, 0.0, settings.rudder, 0.0
+        taxiing = speed.sub_mode == "THR" and words == "taxi"
+        if taxiing:
+            wheel, lever, brake = self._taxi_along(state)
+        else:
+            lever = speed.update(state, self.target_cas, vertical.path_error(state), dt)
+        if self.controls["steering"] == "CONTROLLER" and not taxiing:
+            wheel, rudder = self._along_runway(state)
+        elif self.controls["rudder"] == "CONTROLLER":
+            coordinate = 1.0
+        return Commands(
+            throttle=lever,
+            pitch_hold=float(self.controls["elevator"] == "CONTROLLER"),
+            pitch=pitch,
+            elevator=settings.elevator,
+            bank_hold=float(self.controls["aileron"] == "CONTROLLER"),
+            bank=bank,
+            aileron=settings.aileron,
+            coordinate=coordinate,
+            rudder=rudder,
+            steer=wheel,
+            flap=settings.flap,
+            gear=settings.gear,
+            speedbrake=settings.speedbrake,
+            spoiler=settings.spoiler,
+            brake=brake,
+        )
+
+    def _along_runway(self, state: State) -> tuple[float, float]:
+        along, across = self._centreline.offset(state)
+        if not state.main_on_ground:
+            return 0.0, self.steering.align(state, self._centreline.heading)
+        if along > self._runway.length + OVERRUN_MARGIN or abs(across) > 0.5 * self._runway.width + OVERRUN_MARGIN:
+            end = along > self._runway.length + OVERRUN_MARGIN
+            raise OverrunError(
+                f"left the {'end' if end else 'side'} of runway {self._runway.airport} {self._runway.designator}",
+                time=state.time,
+                phase=self.phase,
+                achieved=f"{along:.0f} m past the threshold, {across:.0f} m right of the centreline",
+                required=f"within {self._runway.length:.0f} m and {0.5 * self._runway.width:.0f} m",
+                knob="less mass, a longer runway, or more brake",
+            )
+        return self.steering.hold_line(state, self._centreline.heading, across, self.step)
+
+    def _taxi_along(self, state: State) -> tuple[float, float, float]:
+        """Return (nose wheel, lever, brake) along the taxi path."""
+        gains = self.manual.gains
+        speed = hypot(state.velocity_north, state.velocity_east)
+        if self._taxi is None:
+            wheel, allowed = 0.0, 0.0
+        else:
+            look_ahead = max(gains["taxi-look-ahead"], 2.0 * speed)
+            error, allowed, self.taxi_distance = self._taxi.follow(state, look_ahead)
+            wheel, _ = self.steering.pursue(state, error, look_ahead)
+            if self._taxi.finished:
+                allowed = 0.0
+        self.target_cas = allowed
+        excess = speed - allowed
+        lever = clamp(-excess * gains["taxi-lever-gain"], 0.0, gains["taxi-lever-limit"])
+        self.speed_mode.lever = approach(self.speed_mode.lever, lever, 0.1 * self.step)
+        wanted = clamp(excess * gains["taxi-brake-gain"], 0.0, 0.5) if allowed > 0.0 else 0.4
+        self._braking = approach(self._braking, wanted, 0.5 * self.step)
+        return wheel, self.speed_mode.lever, self._braking
+
+    def _rename_modes(self) -> None:
+        direct = [name for name, owner in self.controls.items() if owner == "DIRECT"]
+        vertical = self.vertical
+        path = "V/S" if vertical.vertical_speed is not None else vertical.angle
+        names = {
+            "CTRL": f"direct: {' '.join(direct)}" if direct else "controller",
+            "INN": self.inner,
+            "SPD": self.speed_mode.sub_mode,
+            "HP": f"{self.horizontal.sub_mode} {self.horizontal.guidance}".strip(),
+            "VP": f"{vertical.sub_mode} {vertical.guidance}".strip(),
+        }
+        if vertical.sub_mode == "PATH":
+            names["VP"] = f"PATH {path}" if isinstance(path, str) else "PATH"
+        for name, sub_mode in names.items():
+            if self._modes and self._modes[name] != sub_mode:
+                self._note("mode", f"{name} {sub_mode}", f"was {self._modes[name]}")
+        self._modes = names
+
+    def _note(self, kind: str, name: str, reason: str) -> None:
+        event = Event(self._state.time if self._state else 0.0, kind, name, self.phase, reason)
+        for listener in self.listeners:
+            listener(event)

@@ -1,0 +1,247 @@
+"""The navigation computer: from radio aids and position to the course, speed and level of the moment (Fig. 11)."""
+
+from collections.abc import Callable, Sequence
+from math import atan2, cos, hypot, inf, pi, sin, sqrt, tan
+from typing import NamedTuple
+
+from harness.mission.model import Leg
+from harness.navigation import receivers
+from harness.navigation.database import Ils, Runway
+from harness.numerics import clamp, wrap
+from harness.state import State
+from harness.units import DEG
+from harness.world import airspeed, earth
+from harness.world.atmosphere import GRAVITY, pressure_altitude
+
+HOMING_PASSAGE_RANGE = (
+    5000.0  # m: a station further abeam than this was not passed, the aircraft is still turning to it
+)
+LONGEST_LEAD_TURN = 120 * DEG  # a fly-by turn is begun no earlier than this change of course asks for
+ROLL_IN_TIME = 2.0  # s of flight between the order to bank and the turn: led before a fly-by waypoint
+
+
+class Line(NamedTuple):
+    """A course line: through a point at a true course there, ending `end` metres past the point."""
+
+    latitude: float
+    longitude: float
+    course: float
+    end: float
+
+
+class Guidance(NamedTuple):
+    """Where the wanted line or station lies."""
+
+    homing: bool
+    bearing_error: float  # homing: angle from the nose to the station, positive right
+    cross_track: float  # otherwise: metres right of the line
+    course: float  # true course of the line here
+
+
+class Passage(NamedTuple):
+    """One waypoint passed. SI; `cross_track` is 0 for homing."""
+
+    name: str
+    time: float
+    distance: float
+    cross_track: float
+    altitude: float
+    cas: float
+    fuel: float
+
+
+class NavigationComputer:
+    """Follows the legs of a mission and then the runway's centreline; see `update`."""
+
+    def __init__(self, legs: Sequence[Leg], ils: Ils, qnh: float, turn_bank: float) -> None:
+        self.legs = legs
+        self.ils = ils
+        self.runway: Runway = ils.runway
+        self.index = 0
+        self.passages: list[Passage] = []
+        self.on_passage: Callable[[Leg, Passage], None] = lambda leg, passage: None
+        self._turn_bank = turn_bank
+        self._altimeter_setting = pressure_altitude(qnh)
+        self._line = Line(0.0, 0.0, 0.0, 0.0)
+        self._closest = inf
+        self._begun = False
+        self._after = self._distances_after()
+        self.guidance = Guidance(False, 0.0, 0.0, 0.0)
+        self.remaining = inf  # to the active waypoint, m
+        self.target_cas = 0.0
+        self.localizer = receivers.NeedleReading(0.0, 0.0, False)
+        self.glide_slope = receivers.NeedleReading(0.0, 0.0, False)
+        self.distance_to_threshold = inf
+
+    @property
+    def leg(self) -> Leg:
+        """The active leg; after the last waypoint still the last one, for its speed and level."""
+        return self.legs[min(self.index, len(self.legs) - 1)]
+
+    @property
+    def waypoints_remaining(self) -> int:
+        """Waypoints not passed yet."""
+        return len(self.legs) - self.index
+
+    @property
+    def distance_to_go(self) -> float:
+        """Along the route to the threshold, m."""
+        if self.waypoints_remaining == 0:
+            return self.distance_to_threshold
+        return max(self.remaining, 0.0) + self._after[self.index]
+
+    def altimeter(self, state: State) -> float:
+        """The altitude shown against the active level: pressure altitude for a flight level, else above QNH."""
+        return state.pressure_altitude - (0.0 if self.leg.level.kind == "FL" else self._altimeter_setting)
+
+    def level_error(self, state: State) -> float:
+        """How far the active level lies above the aircraft, m."""
+        return self.leg.level.altitude - self.altimeter(state)
+
+    def speed_target(self, state: State) -> float:
+        """The active leg's speed as CAS, m/s."""
+        kind, value = self.leg.speed
+        if kind == "CAS":
+            return value
+        if kind == "MACH":
+            return airspeed.cas_from_mach(value, state.pressure)
+        return airspeed.cas_from_tas(value, state.pressure, state.temperature)
+
+    def update(self, state: State) -> None:
+        """Read the receivers, sequence the waypoints, and renew guidance and targets."""
+        if not self._begun:
+            self._begun = True
+            self._begin(state.latitude, state.longitude)
+        if self.index < len(self.legs):
+            self._follow(state)
+        self.target_cas = self.speed_target(state)
+
+    def update_approach(self, state: State) -> None:
+        """Read the ILS of the destination."""
+        self.localizer = receivers.localizer(self.ils, state.latitude, state.longitude)
+        self.glide_slope = receivers.glide_slope(self.ils, state.latitude, state.longitude, state.altitude)
+        along, across = self.runway.offset(state.latitude, state.longitude)
+        self.distance_to_threshold = -along
+        self.guidance = Guidance(False, 0.0, across, self.runway.true_heading)
+
+    def _follow(self, state: State) -> None:
+        leg = self.legs[self.index]
+        if leg.mode == "homing":
+            passed = self._home(leg, state)
+        else:
+            passed = self._track(leg, state)
+        if passed:
+            self._pass(leg, state)
+            self.update(state)
+
+    def _home(self, leg: Leg, state: State) -> bool:
+        """Point the nose at the station; it is passed when it moves behind the wings."""
+        station = leg.fix.station
+        _, _, distance = earth.inverse(state.latitude, state.longitude, leg.fix.latitude, leg.fix.longitude)
+        if station is not None and station.is_ndb:
+            bearing_error = receivers.adf(station, state.latitude, state.longitude, state.heading)
+        elif station is not None:
+            reading = receivers.vor(station, state.latitude, state.longitude, state.altitude)
+            bearing_error = wrap(reading.bearing + station.declination - state.heading)
+        else:
+            azimuth, _, _ = earth.inverse(
+                state.latitude, state.longitude, leg.fix.latitude, leg.fix.longitude
+            )
+            bearing_error = wrap(azimuth - state.heading)
+        self.remaining = distance
+        self._closest = min(self._closest, distance)
+        self.guidance = Guidance(True, bearing_error, 0.0, state.heading + bearing_error)
+        return distance < HOMING_PASSAGE_RANGE and abs(bearing_error) > 0.5 * pi
+
+    def _track(self, leg: Leg, state: State) -> bool:
+        """Stay on the leg's line; the waypoint is passed abeam, or a turn's lead before it if flown by."""
+        line = self._line
+        station = leg.fix.station
+        if station is not None and station.has_bearing and not station.is_ndb:
+            radial = receivers.vor(station, state.latitude, state.longitude, state.altitude).radial
+            azimuth = radial + station.declination
+        else:
+            azimuth, _, _ = earth.inverse(line.latitude, line.longitude, state.latitude, state.longitude)
+        if station is not None and station.has_dme:
+            slant = receivers.dme(station, state.latitude, state.longitude, state.altitude).distance
+            distance = ground_range(slant, state.altitude - station.elevation, state.altitude)
+        else:
+            _, _, distance = earth.inverse(line.latitude, line.longitude, state.latitude, state.longitude)
+        along, across = earth_offsets(distance, azimuth - line.course)
+        self.remaining = line.end - along
+        # Meridians converge: the geodesic of the line has another true course here than at its reference point.
+        convergence = (state.longitude - line.longitude) * sin(0.5 * (state.latitude + line.latitude))
+        self.guidance = Guidance(False, 0.0, across, (line.course + convergence) % (2 * pi))
+        self._closest = min(self._closest, hypot(self.remaining, across))
+        return self.remaining <= (self._lead(state) if leg.turn == "fly-by" else 0.0)
+
+    def _lead(self, state: State) -> float:
+        """How far before a fly-by waypoint the turn begins, m."""
+        speed = hypot(state.velocity_north, state.velocity_east)
+        turn = min(abs(wrap(self._next_course() - self._line.course)), LONGEST_LEAD_TURN)
+        radius = speed * speed / (GRAVITY * tan(self._turn_bank))
+        return radius * tan(0.5 * turn) + (ROLL_IN_TIME * speed if turn > 2 * DEG else 0.0)
+
+    def _next_course(self) -> float:
+        fix = self.legs[self.index].fix
+        if self.index + 1 == len(self.legs):
+            return self.runway.true_heading
+        following = self.legs[self.index + 1]
+        if following.course_true is not None:
+            return following.course_true
+        azimuth, _, _ = earth.inverse(
+            fix.latitude, fix.longitude, following.fix.latitude, following.fix.longitude
+        )
+        return azimuth
+
+    def _pass(self, leg: Leg, state: State) -> None:
+        cross_track = self.guidance.cross_track
+        passage = Passage(
+            leg.name, state.time, self._closest, cross_track, state.altitude, state.cas, state.fuel
+        )
+        self.passages.append(passage)
+        self.index += 1
+        if leg.turn == "fly-by":
+            self._begin(leg.fix.latitude, leg.fix.longitude)
+        else:
+            self._begin(state.latitude, state.longitude)
+        self.on_passage(leg, passage)
+
+    def _begin(self, latitude: float, longitude: float) -> None:
+        """Draw the line of the active leg; a leg without a course is flown from (latitude, longitude)."""
+        self._closest = inf
+        if self.index >= len(self.legs):
+            self.remaining = 0.0
+            return
+        fix = self.legs[self.index].fix
+        course = self.legs[self.index].course_true
+        if course is None:
+            _, course, _ = earth.inverse(latitude, longitude, fix.latitude, fix.longitude)
+            self._line = Line(fix.latitude, fix.longitude, course, 0.0)
+        elif fix.station is not None:
+            self._line = Line(fix.station.latitude, fix.station.longitude, course, fix.distance or 0.0)
+        else:
+            self._line = Line(fix.latitude, fix.longitude, course, 0.0)
+
+    def _distances_after(self) -> list[float]:
+        """For each leg, the distance from its fix along the rest of the route to the threshold."""
+        points = [(leg.fix.latitude, leg.fix.longitude) for leg in self.legs]
+        points.append((self.runway.latitude, self.runway.longitude))
+        after = [0.0]
+        for (lat_1, lon_1), (lat_2, lon_2) in zip(points[-2::-1], points[:0:-1], strict=True):
+            after.append(after[-1] + earth.inverse(lat_1, lon_1, lat_2, lon_2)[2])
+        return after[:0:-1]
+
+
+def ground_range(slant: float, height: float, altitude: float) -> float:
+    """Distance over the ground in metres from a slant range, at `height` metres above the station."""
+    return sqrt(max(slant * slant - height * height, 0.0)) / (1.0 + altitude / earth.MEAN_RADIUS)
+
+
+def earth_offsets(distance: float, angle: float) -> tuple[float, float]:
+    """Solve the right triangle on the sphere: (along, across) of a point at `distance` and `angle` off a line."""
+    arc = distance / earth.MEAN_RADIUS
+    return (
+        earth.MEAN_RADIUS * atan2(sin(arc) * cos(angle), cos(arc)),
+        earth.MEAN_RADIUS * clamp(sin(arc) * sin(angle), -1.0, 1.0),
+    )

@@ -1,0 +1,78 @@
+"""What a phase is made of, as data: a procedure (steps the pilot acts out) and checklists (conditions it only reads)."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple, Protocol, TypeVar
+
+Relation = Literal["at-least", "at-most", "is"]
+RELATIONS: tuple[Relation, ...] = ("at-least", "at-most", "is")
+
+
+class Condition(NamedTuple):
+    """One line that is true or not yet: `quantity` compared by `relation` with `required`, the text as written."""
+
+    name: str
+    quantity: str
+    relation: Relation
+    required: str
+    file: str
+    line: int
+    remove: bool = False  # in a mission: the item of this name in the manual is dropped
+
+
+class Step(NamedTuple):
+    """One act of a procedure, carried out once all its conditions hold; `action` holds the other attributes."""
+
+    name: str
+    action: dict[str, str]
+    when: tuple[Condition, ...]
+    file: str
+    line: int
+    remove: bool = False
+
+
+class Checklist(NamedTuple):
+    """The way to another phase: open until every item holds."""
+
+    to: str
+    items: tuple[Condition, ...]
+    file: str = ""
+    line: int = 0
+
+
+class Named(Protocol):
+    """A step or an item: has a name, may be marked for removal."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def remove(self) -> bool: ...
+
+
+Entry = TypeVar("Entry", bound=Named)
+
+
+@dataclass(frozen=True)
+class PhasePlan:
+    """The procedure and the checklists of one phase. Checklists are tried in order."""
+
+    name: str
+    steps: tuple[Step, ...]
+    checklists: tuple[Checklist, ...]
+    file: str = ""
+    line: int = 0
+
+    def changed_by(self, other: "PhasePlan") -> "PhasePlan":
+        """This plan with the steps and items of `other`: same name replaces, new is added, `remove` drops."""
+        mine = {checklist.to: checklist for checklist in self.checklists}
+        for theirs in other.checklists:
+            if theirs.to in mine:
+                theirs = theirs._replace(items=_merged(mine[theirs.to].items, theirs.items))
+            mine[theirs.to] = theirs._replace(items=_merged((), theirs.items))
+        return replace(self, steps=_merged(self.steps, other.steps), checklists=tuple(mine.values()))
+
+
+def _merged(mine: Iterable[Entry], theirs: Iterable[Entry]) -> tuple[Entry, ...]:
+    entries = {entry.name: entry for entry in mine}
+    entries.update((entry.name, entry) for entry in theirs)
+    return tuple(entry for entry in entries.values() if not entry.remove)

@@ -1,0 +1,255 @@
+"""A JSBSim aircraft as a plant: takes Commands, flies a pilot step of frames, hands back a State."""
+
+from collections.abc import Callable
+from math import degrees, inf
+from operator import call, mul
+from pathlib import Path
+from typing import NamedTuple
+
+import jsbsim
+
+from harness.errors import GroundImpactError, InputError, NumericalError
+from harness.plant.properties import COMMANDS, PROBES, PSF, STATE, Binding
+from harness.state import Commands, State
+from harness.units import FT, LB
+
+INTEGRATORS = {
+    # Adams-Bashforth 2 for both rates, Buss 2 for attitude, Adams-Bashforth 3 for position: second order, and quiet
+    # on the ground. JSBSim's default rotation is first order (errors of degrees in 30 s of tumbling).
+    "simulation/integrator/rate/rotational": 3.0,
+    "simulation/integrator/rate/translational": 3.0,
+    "simulation/integrator/position/rotational": 7.0,
+    "simulation/integrator/position/translational": 4.0,
+}
+COMMAND_DIGITS = 5
+"""Commands are rounded to this many digits before they are written, so that a recorded flight can be replayed exactly."""
+TERRAIN_PERIOD = 24  # pilot steps between two looks at the terrain below
+TERRAIN_HEIGHT = 60.0  # m; nearer the ground its elevation stays what it was
+IMPACT_SINK = 5.0  # m/s at the wheels: about twice the limit descent velocity of CS 25.473 (3.05 m/s)
+STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground trim finds the true one
+GROUND_TRIM = 2  # JSBSim's trim mode for an aircraft on its wheels
+TANKS = 7
+BELOW_GROUND = -2.0  # m: no strut is that short
+
+
+class Placement(NamedTuple):
+    """Where the aircraft stands at the beginning. Radians; elevation of the ground in metres."""
+
+    latitude: float
+    longitude: float
+    heading: float
+    elevation: float
+
+
+class Loads(NamedTuple):
+    """Masses put on board, kg."""
+
+    payload: float
+    fuel: float
+
+
+class Tank(NamedTuple):
+    """A fuel tank: capacity in kg and its place in the filling order."""
+
+    capacity: float
+    order: float
+
+
+class Air(NamedTuple):
+    """The day: deviation from ISA in K, QNH in Pa, and the velocity of the air towards north and east in m/s."""
+
+    isa_deviation: float
+    qnh: float
+    north: float
+    east: float
+
+
+class JSBSimPlant:
+    """One aircraft, one flight: JSBSim keeps state that no reset clears, so each flight makes its own."""
+
+    def __init__(
+        self,
+        root: Path,
+        aircraft: str,
+        *,
+        rate: int,
+        frames_per_step: int,
+        placement: Placement,
+        loads: Loads,
+        air: Air,
+        terrain: Callable[[float, float], float],
+    ) -> None:
+        """`rate` is frames a second; `terrain(latitude, longitude)` the elevation in metres.
+
+        Raises InputError when the aircraft cannot be loaded or lacks a property that the pilot needs.
+        """
+        self.rate = rate
+        self._frames = range(frames_per_step)
+        self._step = frames_per_step / rate
+        self._terrain = terrain
+        self._placement = placement
+        self._fdm = _load(root, aircraft, rate)
+        self._manager = self._fdm.get_property_manager()
+        self._initialise(placement, loads, air)
+        self._getters = [self._getter(binding) for binding in STATE]
+        self._factors = [binding.factor for binding in STATE]
+        self._probes = [self._getter(binding) for binding in PROBES]
+        self._probe_factors = [binding.factor for binding in PROBES]
+        self._setters = [[self._setter(name) for name in COMMANDS[field]] for field in Commands._fields]
+        self._set_terrain = self._setter("position/terrain-elevation-asl-ft")
+        self._written: Commands = Commands()
+        self._standing_height = self._read("position/h-agl-ft") * FT
+        self._steps = 0
+        self._sink = 0.0
+        self._write_all(self._written)
+
+    @property
+    def frames(self) -> int:
+        """Frames flown so far."""
+        return self._steps * len(self._frames)
+
+    @property
+    def fdm(self) -> jsbsim.FGFDMExec:
+        """The simulator itself, for tools that look at more than State."""
+        return self._fdm
+
+    def state(self) -> State:
+        """The aircraft as it is now."""
+        values = State._make(map(mul, map(call, self._getters), self._factors))
+        return values._replace(height=values.height - self._standing_height)
+
+    def probe(self) -> tuple[float, ...]:
+        """What a recorder wants besides State, in the order of `properties.PROBES`, SI."""
+        return tuple(map(mul, map(call, self._probes), self._probe_factors))
+
+    def advance(self, commands: Commands) -> State:
+        """Fly one pilot step under `commands`.
+
+        Raises NumericalError when the state is no longer finite, GroundImpactError when the aircraft hit the ground.
+        """
+        written = self._written
+        if commands != written:
+            for setters, new, old in zip(self._setters, commands, written, strict=True):
+                if new != old:
+                    value = round(new, COMMAND_DIGITS)
+                    for setter in setters:
+                        setter(value)
+            self._written = commands
+        run = self._fdm.run
+        for _ in self._frames:
+            run()
+        self._steps += 1
+        values = list(map(mul, map(call, self._getters), self._factors))
+        values[_HEIGHT] -= self._standing_height
+        state = State._make(values)
+        if not -inf < sum(values) < inf:
+            raise NumericalError(
+                "the state of the aircraft is no longer finite",
+                time=self._steps * self._step,
+                phase="in the simulator",
+                knob="look at the last rows of the time history; a mass, inertia or wind out of all bounds does this",
+            )
+        if state.main_on_ground or state.height < BELOW_GROUND:
+            self._check_ground(state)
+        self._sink = state.vertical_speed
+        if self._steps % TERRAIN_PERIOD == 0 and state.height > TERRAIN_HEIGHT:
+            self._set_terrain(self._terrain(state.latitude, state.longitude) / FT)
+        return state
+
+    def _check_ground(self, state: State) -> None:
+        if -self._sink > IMPACT_SINK or state.height < BELOW_GROUND:
+            raise GroundImpactError(
+                f"hit the ground at {-self._sink:.1f} m/s",
+                time=state.time,
+                phase="in the air",
+                knob="look at the speeds and levels before this moment in the time history",
+            )
+
+    def _initialise(self, placement: Placement, loads: Loads, air: Air) -> None:
+        put = self._put
+        for name, value in INTEGRATORS.items():
+            put(name, value)
+        # The day before the initial conditions: speeds and heights are converted with it.
+        put("atmosphere/delta-T", air.isa_deviation * 1.8)
+        put("atmosphere/P-sl-psf", air.qnh / PSF)
+        put("ic/terrain-elevation-ft", placement.elevation / FT)
+        put("ic/lat-geod-deg", degrees(placement.latitude))
+        put("ic/long-gc-deg", degrees(placement.longitude))
+        put("ic/psi-true-deg", degrees(placement.heading))
+        self._load(loads)
+        put("ic/h-agl-ft", STANDING_HEIGHT / FT)
+        if not self._fdm.run_ic():
+            raise InputError("JSBSim could not set the initial conditions")
+        self._fdm.do_trim(GROUND_TRIM)
+        put("atmosphere/wind-north-fps", air.north / FT)
+        put("atmosphere/wind-east-fps", air.east / FT)
+
+    def _load(self, loads: Loads) -> None:
+        self._put("inertia/pointmass-weight-lbs[0]", loads.payload / LB)
+        tanks = [
+            Tank(self._read(f"fuel/tank-capacity-kg[{i}]"), self._read(f"fuel/tank-fill-order[{i}]"))
+            for i in range(TANKS)
+        ]
+        for i, contents in enumerate(filled(tanks, loads.fuel)):
+            self._put(f"propulsion/tank[{i}]/contents-lbs", contents / LB)
+
+    def _write_all(self, commands: Commands) -> None:
+        for setters, value in zip(self._setters, commands, strict=True):
+            for setter in setters:
+                setter(value)
+
+    def _read(self, name: str) -> float:
+        return self._node(name).get_double_value()
+
+    def _put(self, name: str, value: float) -> None:
+        self._setter(name)(value)
+
+    def _node(self, name: str) -> jsbsim.FGPropertyNode:
+        node = self._manager.get_node(name)
+        if node is None:
+            raise InputError(
+                f"the aircraft has no property {name}", remedy="systems/ shows how the others provide it"
+            )
+        return node
+
+    def _getter(self, binding: Binding) -> Callable[[], float]:
+        node = self._node(binding.name)
+        return node.get_double_value
+
+    def _setter(self, name: str) -> Callable[[float], object]:
+        node = self._node(name)
+        if not node.get_attribute(jsbsim.Attribute.WRITE):
+            raise InputError(f"property {name} cannot be written")
+        return node.set_double_value
+
+
+_HEIGHT = State._fields.index("height")
+
+
+def filled(tanks: list[Tank], fuel: float) -> list[float]:
+    """Kilograms in each tank when `fuel` is put in by filling order; tanks of equal order fill in proportion.
+
+    Raises InputError when it does not fit.
+    """
+    contents = [0.0] * len(tanks)
+    left = fuel
+    for order in sorted({tank.order for tank in tanks}):
+        group = [i for i, tank in enumerate(tanks) if tank.order == order]
+        capacity = sum(tanks[i].capacity for i in group)
+        share = min(left / capacity, 1.0)
+        for i in group:
+            contents[i] = share * tanks[i].capacity
+        left -= share * capacity
+    if left > 1e-6:
+        raise InputError(f"{fuel:.0f} kg of fuel do not fit: the tanks hold {fuel - left:.0f} kg")
+    return contents
+
+
+def _load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
+    fdm = jsbsim.FGFDMExec(str(root))
+    fdm.set_debug_level(0)
+    fdm.set_dt(1.0 / rate)  # before the model: filters and actuators keep the step they were loaded with
+    if not fdm.load_model(aircraft):
+        raise InputError(f"JSBSim could not load the aircraft {aircraft} from {root}")
+    fdm.disable_output()
+    return fdm

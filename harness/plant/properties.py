@@ -1,0 +1,99 @@
+"""The JSBSim properties behind State and Commands: the only place where the simulator's names and units are known."""
+
+from math import pi
+from typing import NamedTuple
+
+from harness.state import Commands, State
+from harness.units import FT, LB
+from harness.world.atmosphere import GRAVITY
+
+PSF = LB * GRAVITY / FT**2  # pounds force per square foot
+KELVIN = 1.0 / 1.8  # from degrees Rankine
+PRESSURE_ALTITUDE = "atmosphere/pressure-altitude"
+
+
+class Binding(NamedTuple):
+    """A property, and what one of its units is in SI."""
+
+    name: str
+    factor: float = 1.0
+
+
+_STATE = {
+    "time": Binding("simulation/sim-time-sec"),
+    "latitude": Binding("position/lat-geod-rad"),
+    "longitude": Binding("position/long-gc-rad"),
+    "altitude": Binding("position/h-sl-ft", FT),
+    "pressure_altitude": Binding(PRESSURE_ALTITUDE, FT),
+    "height": Binding("position/h-agl-ft", FT),
+    "cas": Binding("velocities/vc-fps", FT),
+    "tas": Binding("velocities/vt-fps", FT),
+    "mach": Binding("velocities/mach"),
+    "velocity_north": Binding("velocities/v-north-fps", FT),
+    "velocity_east": Binding("velocities/v-east-fps", FT),
+    "vertical_speed": Binding("velocities/h-dot-fps", FT),
+    "roll": Binding("attitude/phi-rad"),
+    "pitch": Binding("attitude/theta-rad"),
+    "heading": Binding("attitude/psi-rad"),
+    "roll_rate": Binding("velocities/p-rad_sec"),
+    "pitch_rate": Binding("velocities/q-rad_sec"),
+    "yaw_rate": Binding("velocities/r-rad_sec"),
+    "alpha": Binding("aero/alpha-rad"),
+    "beta": Binding("aero/beta-rad"),
+    "load_factor": Binding("accelerations/Nz"),
+    "main_on_ground": Binding("gear/main-wow"),
+    "nose_on_ground": Binding("gear/nose-wow"),
+    "flap": Binding("fcs/flap-pos-norm"),
+    "gear": Binding("gear/gear-pos-norm"),
+    "stall_warning": Binding("aero/stall-warning"),
+    "mass": Binding("inertia/mass-kg"),
+    "fuel": Binding("inertia/total-fuel-kg"),
+    "fuel_flow": Binding("propulsion/total-fuel-flow-kgps"),
+    "thrust": Binding("propulsion/total-thrust-n"),
+    "propeller_speed": Binding("propulsion/slowest-propeller-rpm", 2.0 * pi / 60.0),
+    "pressure": Binding("atmosphere/P-psf", PSF),
+    "temperature": Binding("atmosphere/T-R", KELVIN),
+}
+STATE: tuple[Binding, ...] = tuple(_STATE[field] for field in State._fields)
+
+_COMMANDS = {
+    "pitch_hold": "ap/pitch-mode",
+    "pitch": "ap/pitch-target-rad",
+    "elevator": "fcs/elevator-cmd-norm",
+    "bank_hold": "ap/roll-mode",
+    "bank": "ap/bank-target-rad",
+    "aileron": "fcs/aileron-cmd-norm",
+    "coordinate": "ap/yaw-mode",
+    "rudder": "fcs/rudder-cmd-norm",
+    "steer": "fcs/steer-cmd-norm",
+    "flap": "fcs/flap-cmd-norm",
+    "gear": "gear/gear-cmd-norm",
+    "speedbrake": "fcs/speedbrake-cmd-norm",
+    "spoiler": "fcs/spoiler-cmd-norm",
+}
+BRAKES = ("fcs/left-brake-cmd-norm", "fcs/right-brake-cmd-norm")
+THROTTLES: tuple[str, ...] = tuple(f"fcs/throttle-cmd-norm[{engine}]" for engine in range(4))
+COMMANDS: dict[str, tuple[str, ...]] = {
+    field: THROTTLES if field == "throttle" else BRAKES if field == "brake" else (_COMMANDS[field],)
+    for field in Commands._fields
+}
+"""The properties that each command is written to."""
+
+_ENGINES = range(4)
+_PROBES = {
+    **{f"shaft_power_{i + 1}": Binding(f"propulsion/engine-power-kw[{i}]", 1000.0) for i in _ENGINES},
+    **{
+        f"propeller_speed_{i + 1}": Binding(f"propulsion/engine[{i}]/propeller-rpm", 2 * pi / 60)
+        for i in _ENGINES
+    },
+    **{f"blade_angle_{i + 1}": Binding(f"propulsion/engine[{i}]/blade-angle", pi / 180) for i in _ENGINES},
+    **{f"tank_{i + 1}": Binding(f"propulsion/tank[{i}]/contents-lbs", LB) for i in range(7)},
+    "elevator_position": Binding("fcs/elevator-pos-rad"),
+    "rudder_position": Binding("fcs/rudder-pos-rad"),
+    "aileron_position": Binding("fcs/left-aileron-pos-rad"),
+    "stall_margin": Binding("aero/alpha-stall-margin-rad"),
+    "cg_x": Binding("inertia/cg-x-in", 0.0254),
+}
+PROBES: tuple[Binding, ...] = tuple(_PROBES.values())
+PROBE_NAMES: tuple[str, ...] = tuple(_PROBES)
+"""What the time history records besides State and Commands."""

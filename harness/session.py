@@ -1,0 +1,112 @@
+"""One flight from its mission's name to its run's folder: reads, checks, flies, concludes, keeps."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from harness import __version__, resources
+from harness.errors import FlightError
+from harness.log import Event, FlightLog, Reporter, Run, RunFolder, conclude, write_run
+from harness.manual import read_manual
+from harness.mission.check import check
+from harness.mission.reader import read_mission
+from harness.state import Commands, State
+
+if TYPE_CHECKING:  # at run time only when flying: it brings JSBSim along
+    from harness.flight import Observer
+
+
+class Pace:
+    """Holds a flight back to real time."""
+
+    def __init__(self) -> None:
+        self._begin: float | None = None
+
+    def see(self, state: State, commands: Commands, pilot: Reporter) -> None:  # noqa: ARG002  an observer
+        """Wait until the clock on the wall has caught up with the flight."""
+        if self._begin is None:
+            self._begin = time.monotonic() - state.time
+        ahead = self._begin + state.time - time.monotonic()
+        if ahead > 0:
+            time.sleep(ahead)
+
+    def note(self, event: Event) -> None:
+        """Events take no time."""
+
+
+class Session:
+    """A mission made ready to fly.
+
+    Raises InputError for anything that can be known to be wrong without flying.
+    """
+
+    def __init__(self, mission: str | PathLike[str], overrides: Sequence[str] = ()) -> None:
+        self.mission = read_mission(resources.find_mission(mission), overrides)
+        self.manual = read_manual(self.mission.aircraft)
+        check(self.mission, self.manual)
+
+    def fly(
+        self,
+        *,
+        out: str | PathLike[str] | None = None,
+        rate: int = 120,
+        realtime: bool = False,
+        progress: "Observer | None" = None,
+    ) -> tuple[Run, FlightError | KeyboardInterrupt | None]:
+        """Fly, and keep the run in a new folder of `out` if given.
+
+        Returns the run and what stopped it early, if anything did. Raises
+        OutputError, before flying if `out` cannot be written.
+        """
+        from harness.analysis.plots import draw_all
+
+        if out is None:
+            return self._fly(rate, realtime, progress)
+        with RunFolder(out, self.mission.name) as folder:
+            run, stopped = self._fly(rate, realtime, progress)
+            write_run(run, folder.path)
+            draw_all(run, folder.path)
+            return replace(run, folder=folder.keep()), stopped
+
+    def _fly(
+        self, rate: int, realtime: bool, progress: "Observer | None"
+    ) -> tuple[Run, FlightError | KeyboardInterrupt | None]:
+        from harness.flight import fly_mission
+
+        log = FlightLog()
+        observers: list[Observer] = [
+            log,
+            *([progress] if progress else []),
+            *([Pace()] if realtime else []),
+        ]
+        stopped: FlightError | KeyboardInterrupt | None = None
+        begin = time.perf_counter()
+        try:
+            fly_mission(self.mission, self.manual, rate=rate, observers=observers)
+        except (FlightError, KeyboardInterrupt) as error:
+            stopped = error
+        wall_time = time.perf_counter() - begin
+        reason = "" if stopped is None else str(stopped) or "interrupted from the keyboard"
+        run = conclude(
+            log,
+            identity=self._identity(rate),
+            fixes={leg.name: (leg.fix.latitude, leg.fix.longitude) for leg in self.mission.legs},
+            mission_text=self.mission.text,
+            wall_time=wall_time,
+            failure=reason,
+        )
+        return run, stopped
+
+    def _identity(self, rate: int) -> dict[str, object]:
+        return {
+            "mission": self.mission.name,
+            "mission_file": Path(self.mission.source_path).name,
+            "aircraft": self.mission.aircraft,
+            "aircraft_sha256": resources.fingerprint(self.mission.aircraft),
+            "harness_version": __version__,
+            "frame_rate_hz": rate,
+            "seed": None,
+        }

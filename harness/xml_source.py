@@ -1,0 +1,286 @@
+"""Reading XML we did not write: hardened, validated, and every fault told with file and line.
+
+No entities, no document type, no network, no file but the one named, at most 1 MB. The shape of a document is
+its XML schema's business: unknown words are found by a walk over the schema's own words (the validator of libxml2
+stops at the first), the rest by the validator, whose findings are retold in the house's words. Values are parsed
+by the readers through `Source`, which collects faults so that one reading reports them all.
+"""
+
+import re
+from collections.abc import Callable, Iterable
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from lxml import etree
+
+from harness.errors import InputError, InputErrors, did_you_mean
+from harness.units import UnitError, parse
+
+Element = etree._Element  # noqa: SLF001 -- lxml has no public name for it
+Value = TypeVar("Value")
+
+LARGEST_FILE = 1_000_000  # bytes; a mission is a few kilobytes
+MOST_ELEMENTS = 2_000  # the validator takes time with the square of them
+MOST_FAULTS = 100  # enough to see that this file is not what it should be
+SCHEMAS = Path(__file__).parent / "schema"
+NAN = float("nan")
+
+_XS = "{http://www.w3.org/2001/XMLSchema}"
+
+
+class Words:
+    """The words of a schema: per element tag the attributes and the children it may have."""
+
+    def __init__(self, declarations: Iterable[Element]) -> None:
+        self.attributes: dict[str, set[str]] = {}
+        self.children: dict[str, set[str]] = {}
+        self.open: set[str] = set()  # tags that take any attribute
+        for element in declarations:
+            tag = element.get("name", "")
+            self.attributes[tag] = {found.get("name", "") for found in element.iter(f"{_XS}attribute")}
+            self.children[tag] = {found.get("ref", "") for found in element.iterdescendants(f"{_XS}element")}
+            if element.find(f".//{_XS}anyAttribute") is not None:
+                self.open.add(tag)
+
+
+class Source:
+    """One XML document: its tree, where its values come from, and the faults found so far."""
+
+    def __init__(self, path: Path, schema: str, *roots: str) -> None:
+        """Read and parse `path`: a document of harness/schema/`schema` with one of these roots. Raises InputError."""
+        self.path = path
+        self.schema, self.words = _schema(schema)
+        self.root = _parsed(path)
+        self.faults: list[InputError] = []
+        self.origins: dict[tuple[Element, str], tuple[str, int | None]] = {}
+        if self.root.tag not in roots:
+            wanted = " or ".join(f"<{tag}>" for tag in roots)
+            self.fault(f"the document is a <{shorten(self.root.tag)}>, not a {wanted}", self.root)
+            self.finish()
+
+    def validate(self) -> None:
+        """Check the shape against the schema. Raises InputErrors: values mean nothing in a wrong shape."""
+        self._check_words(self.root)
+        if not self.faults and not self.schema.validate(self.root):
+            for finding in cast(Iterable[Any], self.schema.error_log):
+                self._retell(finding)
+        self.finish()
+
+    def finish(self) -> None:
+        """Raise what was found, if anything."""
+        if self.faults:
+            raise InputErrors(self.faults)
+
+    def fault(self, what: str, element: Element, attribute: str = "", remedy: str = "") -> None:
+        """Note a fault of an element or of one of its attributes."""
+        file, line = self.place(element, attribute)
+        self.faults.append(InputError(what, file=file, line=line, remedy=remedy))
+        if len(self.faults) >= MOST_FAULTS:
+            self.finish()
+
+    def place(self, element: Element, attribute: str = "") -> tuple[str, int | None]:
+        """File and line of a value; an overridden one comes from its override."""
+        here: Element | None = element
+        while here is not None:
+            for key in ((here, attribute), (here, "")):
+                if key in self.origins:
+                    return self.origins[key]
+            line = cast(int | None, here.sourceline)
+            if line is not None:
+                return str(self.path), line
+            here = here.getparent()
+        return str(self.path), 1
+
+    def read(
+        self, element: Element, attribute: str, parser: Callable[[str], Value], otherwise: Value
+    ) -> Value:
+        """The parsed value of an attribute; `otherwise` if it is absent, or wrong, which is noted as a fault."""
+        text = element.get(attribute)
+        if text is None:
+            return otherwise
+        try:
+            return parser(text)
+        except UnitError as error:
+            what, _, remedy = str(error).partition("; ")
+            self.fault(f"{attribute}={what}", element, attribute, remedy)
+            return otherwise
+
+    def quantity(self, element: Element, attribute: str, kind: str, otherwise: float = NAN) -> float:
+        """An attribute that is a quantity of `kind` (see units.KINDS), in SI."""
+        return self.read(element, attribute, lambda text: parse(text, kind), otherwise)
+
+    def needed(self, element: Element, attribute: str, example: str) -> bool:
+        """Whether the attribute is there; a fault is noted if not."""
+        present = element.get(attribute) is not None
+        if not present:
+            self.fault(
+                f'<{element.tag}> lacks its "{attribute}"', element, remedy=f'add {attribute}="{example}"'
+            )
+        return present
+
+    def one(self, parent: Element, tag: str, *, needed: bool = True) -> Element | None:
+        """The only child of that tag; missing (if needed) and doubled ones are faults."""
+        found = list(children(parent, tag))
+        if not found and needed:
+            self.fault(f"<{parent.tag}> has no <{tag}>", parent, remedy=f"add one <{tag} .../>")
+        for extra in found[1:]:
+            self._doubled(f"<{tag}>", found[0], extra, "")
+        return found[0] if found else None
+
+    def distinct(self, elements: Iterable[Element], attribute: str) -> None:
+        """Elements that share the value of the attribute they are known by are faults."""
+        seen: dict[str, Element] = {}
+        for element in elements:
+            value = element.get(attribute)
+            if value is not None and (first := seen.setdefault(value, element)) is not element:
+                self._doubled(f'<{element.tag} {attribute}="{shorten(value)}">', first, element, attribute)
+
+    def _doubled(self, what: str, first: Element, extra: Element, attribute: str) -> None:
+        line = self.place(first, attribute)[1]
+        self.fault(f"{what} is here twice; the first is in line {line}", extra, attribute, "keep one of them")
+
+    def _check_words(self, element: Element) -> None:
+        known = self.words.attributes[element.tag]
+        for name in element.attrib:
+            if name not in known and element.tag not in self.words.open:
+                remedy = did_you_mean(str(name), known)
+                self.fault(f'<{element.tag}> has no attribute "{shorten(name)}"', element, str(name), remedy)
+        for child in children(element):
+            if child.tag in self.words.children[element.tag]:
+                self._check_words(child)
+                continue
+            remedy = did_you_mean(child.tag, self.words.children[element.tag], "<{}>")
+            what = f"<{shorten(child.tag)}> does not belong into <{element.tag}>"
+            self.fault(what, child, remedy=remedy or f"<{element.tag}> has no elements inside")
+
+    def _retell(self, finding: Any) -> None:
+        found = self.root.getroottree().xpath(finding.path) if finding.path else []
+        element = cast(Element, found[0]) if isinstance(found, list) and found else self.root
+        told = _retold(finding.message)
+        if told is not None:
+            what, remedy, attribute = told
+            self.fault(what, element, attribute, remedy)
+
+
+def children(parent: Element, tag: str = "*") -> Iterable[Element]:
+    """Child elements, without comments."""
+    return parent.iterchildren(tag)
+
+
+def shorten(text: object, most: int = 60) -> str:
+    """The text for a message: on one line and not too long."""
+    plain = " ".join(str(text).replace("\x00", "").split())
+    return plain if len(plain) <= most else plain[: most - 3] + "..."
+
+
+def read_bytes(path: Path) -> bytes:
+    """The content of a regular file of acceptable size. Raises InputError."""
+    try:
+        if path.is_dir():
+            raise InputError("is a folder, not a file", file=path)
+        if not path.exists():
+            siblings = [other.name for other in path.parent.glob("*.xml")] if path.parent.is_dir() else []
+            raise InputError("there is no such file", file=path, remedy=did_you_mean(path.name, siblings))
+        if not path.is_file():  # a pipe or a device could block for ever
+            raise InputError("is not a regular file", file=path)
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(f"cannot be read: {reason}", file=shorten(path, 200)) from None
+    if not data:
+        raise InputError("is empty", file=path, line=1, remedy="an XML document is wanted")
+    if len(data) > LARGEST_FILE:
+        remedy = "a mission is a few kilobytes"
+        raise InputError(f"is larger than {LARGEST_FILE:,} bytes", file=path, line=1, remedy=remedy)
+    return data
+
+
+def _parsed(path: Path) -> Element:
+    parser = etree.XMLParser(
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        dtd_validation=False,
+        huge_tree=False,
+        remove_pis=True,
+    )
+    try:
+        root = etree.fromstring(read_bytes(path), parser)
+    except etree.XMLSyntaxError as error:
+        # A column is "line 3, column 7" at the end of the message: the line is told before it.
+        what = re.sub(r", line \d+, column (\d+)$", r", column \1", str(error.msg))
+        line = max(error.lineno or 1, 1)
+        remedy = "no entities are allowed; delete their <!DOCTYPE ...>" if "ntity" in what else ""
+        raise InputError(
+            f"is not well-formed XML: {shorten(what, 200)}", file=path, line=line, remedy=remedy
+        ) from None
+    except (ValueError, LookupError, etree.LxmlError) as error:
+        raise InputError(f"is not readable XML: {shorten(error, 200)}", file=path, line=1) from None
+    if cast(Any, root.getroottree().docinfo).doctype:
+        raise InputError(
+            "a document type (<!DOCTYPE ...>) is not allowed: it can pull in entities and other files",
+            file=path,
+            line=1,
+            remedy="delete it; the files of harness need none",
+        )
+    if sum(1 for _ in root.iter()) > MOST_ELEMENTS:
+        raise InputError(f"has more than {MOST_ELEMENTS:,} elements", file=path, line=1)
+    return root
+
+
+@lru_cache
+def _schema(name: str) -> tuple[etree.XMLSchema, Words]:
+    document = etree.parse(str(SCHEMAS / name))
+    root = document.getroot()
+    included = [
+        str(SCHEMAS / found.get("schemaLocation", "")) for found in root.iterchildren(f"{_XS}include")
+    ]
+    roots = [root, *(etree.parse(file).getroot() for file in included)]
+    return etree.XMLSchema(document), Words(
+        tag for part in roots for tag in part.iterchildren(f"{_XS}element")
+    )
+
+
+_MISSING_ATTRIBUTE = re.compile(r"Element '([^']*)': The attribute '([^']*)' is required but missing")
+_MISSING_CHILD = re.compile(r"Element '([^']*)': Missing child element\(s\)\. Expected is \( (.*) \)")
+_ENUMERATION = re.compile(
+    r"Element '[^']*', attribute '([^']*)': \[facet 'enumeration'\] The value '(.*)' is not an element of the set"
+    r" \{(.*)\}",
+    re.DOTALL,
+)
+_FACET = re.compile(r"Element '[^']*', attribute '([^']*)': \[facet '(minLength|maxLength|pattern)'\]")
+_FACETS = {
+    "minLength": ("is empty", ""),
+    "maxLength": ("is too long", ""),
+    "pattern": (
+        "has characters that do not belong there",
+        "letters and digits, joined by . _ -, on one line",
+    ),
+}
+_TEXT = re.compile(r"Element '([^']*)': (?:Character content|The element content|Element content)")
+_ECHO = re.compile(r"Element '[^']*', attribute '[^']*': '.*' is not a valid value of the", re.DOTALL)
+
+
+def _retold(message: str) -> tuple[str, str, str] | None:
+    """(what is wrong, what would be right, the attribute) of a finding of libxml2; None if it repeats another."""
+    if _ECHO.match(message):
+        return None
+    if found := _MISSING_ATTRIBUTE.match(message):
+        return f'<{found[1]}> lacks its "{found[2]}"', f'add {found[2]}="..."', ""
+    if found := _MISSING_CHILD.match(message):
+        return f"<{found[1]}> is empty", f"add at least one <{found[2]} .../>", ""
+    if found := _ENUMERATION.match(message):
+        allowed = re.findall(r"'([^']*)'", found[3])
+        return f'{found[1]}="{shorten(found[2])}" is not known', did_you_mean(found[2], allowed), found[1]
+    if found := _FACET.match(message):
+        what, remedy = _FACETS[found[2]]
+        return f"{found[1]} {what}", remedy, found[1]
+    if found := _TEXT.match(message):
+        return (
+            f"<{found[1]}> has text inside, where none belongs",
+            "values are attributes; delete the text",
+            "",
+        )
+    return shorten(message, 200), "", ""
