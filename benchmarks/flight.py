@@ -2,8 +2,8 @@
 
 `python benchmarks/flight.py [MISSION]` prints one JSON line. The mission is flown as `harness fly` flies it:
 pilot at 24 Hz, checklists, log. After every 10 s of flight the same 10 s are stepped by a second, bare JSBSim
-of the same aircraft under the same commands, of which only the frames themselves are timed: both sides meet the
-same machine load and do the same physics.
+of the same aircraft under the same commands, of which only the frames themselves are timed: both sides meet
+the same machine load and do the same physics.
 """
 
 import json
@@ -42,10 +42,12 @@ class Interleaved:
         self.flight_time = 0.0
         self.bare_time = 0.0
         self.frames = 0
-        self._mark = perf_counter()
+        self._mark = 0.0
 
     def see(self, state: State, commands: Commands, pilot: Reporter) -> None:  # noqa: ARG002  an observer
         """Remember the step; repeat the segment when it is full."""
+        if not self._mark:
+            self._mark = perf_counter()  # loading the aircraft is not part of flying it
         self._commands.append(commands)
         if len(self._commands) == SEGMENT:
             self.close()

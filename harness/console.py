@@ -1,5 +1,6 @@
 """What a person sees while a flight runs: one live line on a terminal, and a plain line for what happens."""
 
+import shutil
 import time
 from typing import TextIO
 
@@ -8,8 +9,8 @@ from harness.state import Commands, State
 from harness.units import FT, KT, NM
 
 REFRESH = 0.2  # s, of the clock on the wall
-EVERY = 24  # pilot steps between two looks at that clock
-WIDTH = 110
+EVERY = 5  # pilot steps between two looks at that clock
+STANDING = frozenset({"CTRL", "INN"})  # super-modes that hardly change and would fill the line
 REPORTED = frozenset({"phase", "waypoint", "warning"})
 
 
@@ -32,7 +33,8 @@ class Console:
         now = time.monotonic()
         if self._live and now - self._shown >= REFRESH:
             self._shown = now
-            self._stream.write(f"\r{live_line(state, pilot, now - self._begin):<{WIDTH}.{WIDTH}}")
+            width = shutil.get_terminal_size().columns - 1
+            self._stream.write(f"\r{live_line(state, pilot, now - self._begin):<{width}.{width}}")
             self._stream.flush()
 
     def note(self, event: Event) -> None:
@@ -50,17 +52,17 @@ class Console:
 
     def _clear(self) -> None:
         if self._live:
-            self._stream.write(f"\r{'':<{WIDTH}}\r")
+            self._stream.write("\r" + " " * (shutil.get_terminal_size().columns - 1) + "\r")
 
 
 def live_line(state: State, pilot: Reporter, elapsed: float) -> str:
     """Phase, modes, altitude, speed, distance to go and times real time, after `elapsed` s on the wall."""
-    modes = " ".join(f"{name}:{mode}" for name, mode in pilot.modes.items())
+    modes = " | ".join(mode for name, mode in pilot.modes.items() if name not in STANDING)
     to_go = pilot.targets.get("distance_to_go", 0.0) / NM
     faster = state.time / elapsed if elapsed > 0 else 0.0
-    return (
-        f"{clock(state.time)}  {pilot.phase:<16} {modes}  {state.altitude / FT:6.0f} ft"
-        f"  {state.cas / KT:3.0f} kt  {to_go:5.1f} NM to go  {faster:4.0f} x"
+    return (  # the modes last: on a narrow terminal they may be cut off
+        f"{clock(state.time)} {pilot.phase:<16}{state.altitude / FT:6.0f} ft{state.cas / KT:4.0f} kt"
+        f"{to_go:6.1f} NM to go{faster:5.0f} x  {modes}"
     )
 
 

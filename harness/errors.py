@@ -1,4 +1,4 @@
-"""Every way we refuse, as a tree. `str(error)` is the whole message; the command line adds `harness: ` in front.
+"""Every way we refuse, as a tree. `str(error)` is the whole message; the command line adds `harness: `.
 
 HarnessError
     InputError          a file or a value we were given is wrong               exit 2
@@ -50,7 +50,7 @@ class InputError(HarnessError):
         return _lines(f"{place}: {self.what}" if place else self.what, self.remedy)
 
 
-class InputErrors(InputError):
+class InputErrors(InputError):  # noqa: N818  the plural says what it is
     """Several faults found in one reading, in the order of the file; at most `SHOWN` are spelt out."""
 
     SHOWN = 20

@@ -53,7 +53,9 @@ def fly_mission(
                 see(state, commands, pilot)
             state = plant.advance(commands)
             if state.time > time_limit:
-                raise TimeLimitError(f"still flying after {time_limit:.0f} s", time=state.time, phase=pilot.phase)
+                raise TimeLimitError(
+                    f"still flying after {time_limit:.0f} s", time=state.time, phase=pilot.phase
+                )
     except FlightError as error:
         error.phase = pilot.phase
         raise
@@ -75,7 +77,10 @@ def prepare(mission: Mission, manual: FlightManual, *, rate: int) -> tuple[Pilot
         placement=_placement(mission, departure),
         loads=Loads(mission.loading.payload_of(empty), mission.loading.fuel),
         air=Air(
-            day.isa_deviation, day.qnh, -day.wind_speed * cos(day.wind_from), -day.wind_speed * sin(day.wind_from)
+            day.isa_deviation,
+            day.qnh,
+            -day.wind_speed * cos(day.wind_from),
+            -day.wind_speed * sin(day.wind_from),
         ),
         terrain=_Terrain(departure, arrival),
     )

@@ -51,7 +51,7 @@ LIMITS: dict[str, str] = {
 
 
 class FlapSetting(NamedTuple):
-    """A flap lever position: 0 up .. 1 landing, its highest airspeed (m/s CAS) and power-off lift coefficient."""
+    """A flap setting: position 0 up .. 1 landing, highest airspeed (m/s CAS), power-off lift coefficient."""
 
     name: str
     position: float
@@ -80,7 +80,7 @@ class Changes(Protocol):
 
 @dataclass(frozen=True)
 class FlightManual:
-    """What a pilot looks up. SI and radians; MMO is a Mach number; thrust settings are lever positions -1..1."""
+    """What a pilot looks up. SI and radians; MMO is a Mach number; thrust settings are levers, -1..1."""
 
     aircraft: str
     limits: Mapping[str, float]
@@ -99,7 +99,7 @@ class FlightManual:
         raise self._unknown("flap setting", name, [setting.name for setting in self.flaps])
 
     def stall_speed(self, mass: float, flaps: str) -> float:
-        """The power-off 1-g stall speed in m/s CAS at `mass` (kg). CAS is taken as EAS, as is right when slow.
+        """The power-off 1-g stall speed in m/s CAS at `mass` (kg). CAS is taken as EAS: it is, when slow.
 
         Source: lift equals weight, CS 25.103.
         """

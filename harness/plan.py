@@ -1,4 +1,4 @@
-"""What a phase is made of, as data: a procedure (steps the pilot acts out) and checklists (conditions it only reads)."""
+"""What a phase is made of, as data: a procedure, which the pilot acts out, and checklists, which it reads."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ RELATIONS: tuple[Relation, ...] = ("at-least", "at-most", "is")
 
 
 class Condition(NamedTuple):
-    """One line that is true or not yet: `quantity` compared by `relation` with `required`, the text as written."""
+    """One line that is true or not yet: `quantity` against `required`, which is text as written."""
 
     name: str
     quantity: str
@@ -21,7 +21,7 @@ class Condition(NamedTuple):
 
 
 class Step(NamedTuple):
-    """One act of a procedure, carried out once all its conditions hold; `action` holds the other attributes."""
+    """One act of a procedure, done once all its conditions hold; `action` has its other attributes."""
 
     name: str
     action: dict[str, str]
@@ -44,9 +44,12 @@ class Named(Protocol):
     """A step or an item: has a name, may be marked for removal."""
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """What it is known by."""
+
     @property
-    def remove(self) -> bool: ...
+    def remove(self) -> bool:
+        """Whether it drops the entry of that name."""
 
 
 Entry = TypeVar("Entry", bound=Named)
@@ -64,12 +67,11 @@ class PhasePlan:
 
     def changed_by(self, other: "PhasePlan") -> "PhasePlan":
         """This plan with the steps and items of `other`: same name replaces, new is added, `remove` drops."""
-        mine = {checklist.to: checklist for checklist in self.checklists}
-        for theirs in other.checklists:
-            if theirs.to in mine:
-                theirs = theirs._replace(items=_merged(mine[theirs.to].items, theirs.items))
-            mine[theirs.to] = theirs._replace(items=_merged((), theirs.items))
-        return replace(self, steps=_merged(self.steps, other.steps), checklists=tuple(mine.values()))
+        checklists = {checklist.to: checklist for checklist in self.checklists}
+        for change in other.checklists:
+            mine = checklists.get(change.to, change._replace(items=()))
+            checklists[change.to] = change._replace(items=_merged(mine.items, change.items))
+        return replace(self, steps=_merged(self.steps, other.steps), checklists=tuple(checklists.values()))
 
 
 def _merged(mine: Iterable[Entry], theirs: Iterable[Entry]) -> tuple[Entry, ...]:

@@ -1,6 +1,6 @@
 """Reading procedures and checklists from XML, and checking that every word in them has a meaning.
 
-The words themselves are in `harness.vocabulary`; the names an aircraft adds (speeds, settings) come as `Words`.
+The words are in `harness.vocabulary`; the names an aircraft adds (speeds, settings) come as `Words`.
 """
 
 import re
@@ -36,7 +36,7 @@ class Reference(NamedTuple):
 
 
 def parse_reference(text: str, kind: str) -> Reference:
-    """The right-hand side of a condition or an argument: "200 ft/min", "VR", "V2 + 10 kt", "yes", "120 kt CAS".
+    """The right-hand side of a condition or an argument: "200 ft/min", "VR", "V2 + 10 kt", "yes".
 
     `kind` is a kind of quantity of the vocabulary. Names are returned unchecked. Raises UnitError.
     """
@@ -159,15 +159,19 @@ def check_condition(condition: Condition, words: Words) -> Iterator[InputError]:
     if condition.remove:
         return
     try:
-        kind = _known(condition.quantity, vocabulary.QUANTITIES, "a quantity")
-        if kind == "yes-no" and condition.relation != "is":
-            raise UnitError(f'{condition.quantity} is yes or no; write is="yes"')
-        names = _names(condition.quantity, kind, words)
-        reference = parse_reference(condition.required, kind)
-        if reference.name:
-            _known(reference.name, dict.fromkeys(names, ""), f"known for {condition.quantity}")
+        _check_comparison(condition, words)
     except UnitError as error:
         yield _fault("", error, condition)
+
+
+def _check_comparison(condition: Condition, words: Words) -> None:
+    kind = _known(condition.quantity, vocabulary.QUANTITIES, "a quantity")
+    if kind == "yes-no" and condition.relation != "is":
+        raise UnitError(f'{condition.quantity} is yes or no; write is="yes"')
+    names = _names(condition.quantity, kind, words)
+    reference = parse_reference(condition.required, kind)
+    if reference.name:
+        _known(reference.name, dict.fromkeys(names, ""), f"known for {condition.quantity}")
 
 
 def _names(quantity: str, kind: str, words: Words) -> frozenset[str]:

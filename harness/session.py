@@ -68,7 +68,10 @@ class Session:
         with RunFolder(out, self.mission.name) as folder:
             run, stopped = self._fly(rate, realtime, progress)
             write_run(run, folder.path)
-            draw_all(run, folder.path)
+            try:
+                draw_all(run, folder.path)
+            except KeyboardInterrupt as error:  # no pictures then, but the flight is kept
+                stopped = stopped or error
             return replace(run, folder=folder.keep()), stopped
 
     def _fly(

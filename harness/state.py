@@ -6,31 +6,32 @@ from typing import NamedTuple
 class State(NamedTuple):
     """The aircraft as the pilot sees it at one instant.
 
-    Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres.
+    Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres. Well above the
+    ground a plant may renew the fields from `altitude` on less often than at every pilot step, at least at 8 Hz.
     """
 
     time: float  # simulated time since the first frame, s
-    latitude: float  # geodetic, WGS84
-    longitude: float
-    altitude: float  # above mean sea level (the chart's height)
-    pressure_altitude: float  # ISA altitude of the static pressure, geopotential
     height: float  # of the main wheels above the ground, aircraft level: 0 on the runway
     cas: float  # m/s
     tas: float
-    mach: float
+    vertical_speed: float  # up
+    pitch: float  # nose up
+    main_on_ground: float  # 0 or 1
+    altitude: float  # above mean sea level (the chart's height)
+    pressure_altitude: float  # ISA altitude of the static pressure, geopotential
+    latitude: float  # geodetic, WGS84
+    longitude: float
     velocity_north: float
     velocity_east: float
-    vertical_speed: float  # up
-    roll: float  # right wing down
-    pitch: float  # nose up
     heading: float  # true
+    roll: float  # right wing down
     roll_rate: float  # body axes, rad/s
     pitch_rate: float
     yaw_rate: float
     alpha: float
     beta: float
     load_factor: float  # normal, 1 in level flight
-    main_on_ground: float  # 0 or 1
+    mach: float
     nose_on_ground: float
     flap: float  # 0 up .. 1 landing
     gear: float  # 0 up .. 1 down
@@ -44,6 +45,10 @@ class State(NamedTuple):
     temperature: float  # static, K
 
 
+FAST_FIELDS = State._fields[: State._fields.index("altitude")]
+"""The fields that are renewed at every pilot step."""
+
+
 class Commands(NamedTuple):
     """What the pilot asks of the aircraft.
 
@@ -52,17 +57,17 @@ class Commands(NamedTuple):
     """
 
     throttle: float = 0.0  # thrust levers, -1 full reverse .. 0 idle .. 1 take-off
-    pitch_hold: float = 0.0
     pitch: float = 0.0  # rad
-    elevator: float = 0.0
-    bank_hold: float = 0.0
     bank: float = 0.0  # rad
-    aileron: float = 0.0
-    coordinate: float = 0.0  # 1: the aircraft keeps sideslip at zero; 0: pedals reach the rudder
     rudder: float = 0.0  # pedals, -1..1, positive: nose right
     steer: float = 0.0  # nose wheel, -1..1, positive: nose right
+    brake: float = 1.0  # both sides
+    pitch_hold: float = 0.0
+    elevator: float = 0.0
+    bank_hold: float = 0.0
+    aileron: float = 0.0
+    coordinate: float = 0.0  # 1: the aircraft keeps sideslip at zero; 0: pedals reach the rudder
     flap: float = 0.0
     gear: float = 1.0
     speedbrake: float = 0.0
     spoiler: float = 0.0  # ground spoilers
-    brake: float = 1.0  # both sides

@@ -1,7 +1,7 @@
 """Units at the doors: text with a unit in, SI floats inside, text with a unit out.
 
-Inside the house every number is SI (metres, seconds, kilograms, pascals, kelvins) and radians. The constants are
-multiplied in and divided out: `250 * KT`, `state.altitude / FT`.
+Inside the house every number is SI (metres, seconds, kilograms, pascals, kelvins) and radians. The
+constants are multiplied in and divided out: `250 * KT`, `state.altitude / FT`.
 
 Sources: foot, nautical mile, pound: international agreement (NIST SP 811, appendix B); knot: NM per hour.
 """
@@ -37,7 +37,7 @@ class UnitError(ValueError):
 
 
 class Kind(NamedTuple):
-    """A kind of quantity: how it reads in a sentence, an example, its units, and the largest credible SI value."""
+    """A kind of quantity: how it reads in a sentence, an example, its units, the largest credible value."""
 
     noun: str
     example: str
@@ -52,6 +52,7 @@ KINDS: dict[str, Kind] = {
     "vertical-speed": Kind("a vertical speed", "500 ft/min", {"m/s": 1.0, "ft/min": FPM}, 500.0),
     "mass": Kind("a mass", "100 t", {"kg": 1.0, "t": TONNE, "lb": LB}, 1e6),
     "angle": Kind("an angle", "15 deg", {"deg": DEG, "rad": 1.0}, 20.0),
+    "direction": Kind("a direction", "148 deg true", {"deg": DEG, "rad": 1.0}, 20.0),
     "angular-speed": Kind("an angular speed", "3 deg/s", {"deg/s": DEG, "rad/s": 1.0, "rpm": RPM}, 1e4),
     "pressure": Kind("a pressure", "1013.25 hPa", {"Pa": 1.0, "hPa": HPA, "inHg": INHG}, 1e7),
     "temperature-difference": Kind("a temperature difference", "10 K", {"K": 1.0}, 200.0),
@@ -99,7 +100,7 @@ class Level(NamedTuple):
 def parse(text: str, kind: str) -> float:
     """The SI value of `text`, such as "12 t", which must be a quantity of `kind` (a key of KINDS).
 
-    Raises UnitError: not a number, no unit, a unit of another kind, not finite, or beyond anything that flies.
+    Raises UnitError: not a number, no unit, a unit of another kind, or beyond anything that flies.
     """
     wanted = KINDS[kind]
     number, unit = _split(text, f"{wanted.noun} is wanted, e.g. {wanted.example}")
@@ -109,13 +110,15 @@ def parse(text: str, kind: str) -> float:
 
 
 def parse_any(text: str) -> float:
-    """The SI value of a number with any unit or none; units may be divided: "0.5 deg/m". For free-named gains."""
+    """The SI value of a number with any unit or none; units may be divided: "0.5 deg/m". For gains."""
     number, unit = _split(text, "a number is wanted, with a unit if it has one, e.g. 12 s")
     factor = FACTORS.get(unit)
     if factor is None:
         above, _, below = unit.partition("/")
         if above not in FACTORS or below not in FACTORS or not below:
-            raise UnitError(f'"{text}": the unit "{unit}" is not known; known are {_listed(FACTORS)}')
+            raise UnitError(
+                f'"{text}": the unit "{unit}" is not known; known are {", ".join(filter(None, FACTORS))}'
+            )
         factor = FACTORS[above] / FACTORS[below]
     if not math.isfinite(number * factor):
         raise UnitError(f'"{text}" is not a finite number')
@@ -136,7 +139,7 @@ def parse_speed(text: str) -> Speed:
 
 
 def parse_level(text: str) -> Level:
-    """A level: "FL230" is a pressure altitude, "5000 ft" an altitude above mean sea level. Raises UnitError."""
+    """A level: "FL230" is a pressure altitude, "5000 ft" is above mean sea level. Raises UnitError."""
     flight_level = _FLIGHT_LEVEL.fullmatch(text.strip())
     if flight_level:
         return Level("FL", float(flight_level[1]) * FLIGHT_LEVEL)
@@ -147,14 +150,14 @@ def parse_level(text: str) -> Level:
 
 
 def parse_direction(text: str) -> tuple[float, bool]:
-    """A direction with its north: "148 deg magnetic" -> (radians in [0, 2 pi), True if magnetic). Raises UnitError."""
+    """A direction, "148 deg magnetic", as (radians in [0, 2 pi), True if magnetic). Raises UnitError."""
     words = text.split()
     if not words or words[-1] not in ("true", "magnetic"):
-        parse(text, "angle")
+        parse(text, "direction")
         raise UnitError(
             f'"{text}" does not say from which north; write {text.strip()} true or {text.strip()} magnetic'
         )
-    angle = parse(" ".join(words[:-1]), "angle")
+    angle = parse(" ".join(words[:-1]), "direction")
     if not 0 <= angle <= 2 * math.pi + 1e-9:
         raise UnitError(f'"{text}": a direction lies between 0 deg and 360 deg')
     return angle % (2 * math.pi), words[-1] == "magnetic"
@@ -182,7 +185,8 @@ def _wrong_unit(text: str, number: float, unit: str, wanted: Kind) -> str:
             return f'"{_short(text)}" is {kind.noun}; {wanted.noun} is wanted, e.g. {wanted.example}'
     if wanted.units.keys() == KINDS["ratio"].units.keys():
         return f'"{_short(text)}": a number without unit is wanted, e.g. {example}'
-    return f'"{_short(text)}": the unit "{_short(unit)}" is not known for {wanted.noun}; known are {_listed(wanted.units)}'
+    known = ", ".join(filter(None, wanted.units))
+    return f'"{_short(text)}": the unit "{_short(unit)}" is not known for {wanted.noun}; known are {known}'
 
 
 def _credible(text: str, value: float, kind: Kind, largest: float | None = None) -> float:
@@ -197,10 +201,6 @@ def _positive(text: str, value: float) -> float:
     if value <= 0:
         raise UnitError(f'"{text}": an airspeed is more than zero')
     return value
-
-
-def _listed(units: dict[str, float]) -> str:
-    return ", ".join(unit for unit in units if unit)
 
 
 def _short(text: str, most: int = 60) -> str:

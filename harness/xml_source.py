@@ -1,16 +1,16 @@
 """Reading XML we did not write: hardened, validated, and every fault told with file and line.
 
-No entities, no document type, no network, no file but the one named, at most 1 MB. The shape of a document is
-its XML schema's business: unknown words are found by a walk over the schema's own words (the validator of libxml2
-stops at the first), the rest by the validator, whose findings are retold in the house's words. Values are parsed
-by the readers through `Source`, which collects faults so that one reading reports them all.
+No entities, no document type, no network, no file but the one named, at most 1 MB. The shape of a document
+is its XML schema's business: unknown words are found by a walk over the schema's own words (the validator of
+libxml2 stops at the first), the rest by the validator, whose findings are retold in the house's words. Values
+are parsed by the readers through `Source`, which collects faults so that one reading reports them all.
 """
 
 import re
 from collections.abc import Callable, Iterable
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypeVar, cast
+from typing import Any, Protocol, TypeVar, cast
 
 from lxml import etree
 
@@ -27,6 +27,13 @@ SCHEMAS = Path(__file__).parent / "schema"
 NAN = float("nan")
 
 _XS = "{http://www.w3.org/2001/XMLSchema}"
+
+
+class Finding(Protocol):
+    """What libxml2's validator says of one thing it found."""
+
+    message: str
+    path: str | None
 
 
 class Words:
@@ -48,7 +55,7 @@ class Source:
     """One XML document: its tree, where its values come from, and the faults found so far."""
 
     def __init__(self, path: Path, schema: str, *roots: str) -> None:
-        """Read and parse `path`: a document of harness/schema/`schema` with one of these roots. Raises InputError."""
+        """Read and parse `path`, a document of `schema` with one of these roots. Raises InputError."""
         self.path = path
         self.schema, self.words = _schema(schema)
         self.root = _parsed(path)
@@ -63,7 +70,7 @@ class Source:
         """Check the shape against the schema. Raises InputErrors: values mean nothing in a wrong shape."""
         self._check_words(self.root)
         if not self.faults and not self.schema.validate(self.root):
-            for finding in cast(Iterable[Any], self.schema.error_log):
+            for finding in cast(Iterable[Finding], self.schema.error_log):
                 self._retell(finding)
         self.finish()
 
@@ -95,7 +102,7 @@ class Source:
     def read(
         self, element: Element, attribute: str, parser: Callable[[str], Value], otherwise: Value
     ) -> Value:
-        """The parsed value of an attribute; `otherwise` if it is absent, or wrong, which is noted as a fault."""
+        """The parsed value of an attribute; `otherwise` if absent, or wrong, which is noted as a fault."""
         text = element.get(attribute)
         if text is None:
             return otherwise
@@ -154,7 +161,7 @@ class Source:
             what = f"<{shorten(child.tag)}> does not belong into <{element.tag}>"
             self.fault(what, child, remedy=remedy or f"<{element.tag}> has no elements inside")
 
-    def _retell(self, finding: Any) -> None:
+    def _retell(self, finding: Finding) -> None:
         found = self.root.getroottree().xpath(finding.path) if finding.path else []
         element = cast(Element, found[0]) if isinstance(found, list) and found else self.root
         told = _retold(finding.message)
@@ -246,8 +253,8 @@ def _schema(name: str) -> tuple[etree.XMLSchema, Words]:
 _MISSING_ATTRIBUTE = re.compile(r"Element '([^']*)': The attribute '([^']*)' is required but missing")
 _MISSING_CHILD = re.compile(r"Element '([^']*)': Missing child element\(s\)\. Expected is \( (.*) \)")
 _ENUMERATION = re.compile(
-    r"Element '[^']*', attribute '([^']*)': \[facet 'enumeration'\] The value '(.*)' is not an element of the set"
-    r" \{(.*)\}",
+    r"Element '[^']*', attribute '([^']*)': \[facet 'enumeration'\] "
+    r"The value '(.*)' is not an element of the set \{(.*)\}",
     re.DOTALL,
 )
 _FACET = re.compile(r"Element '[^']*', attribute '([^']*)': \[facet '(minLength|maxLength|pattern)'\]")
@@ -264,7 +271,7 @@ _ECHO = re.compile(r"Element '[^']*', attribute '[^']*': '.*' is not a valid val
 
 
 def _retold(message: str) -> tuple[str, str, str] | None:
-    """(what is wrong, what would be right, the attribute) of a finding of libxml2; None if it repeats another."""
+    """(what is wrong, what would be right, the attribute) of a finding; None if it repeats another."""
     if _ECHO.match(message):
         return None
     if found := _MISSING_ATTRIBUTE.match(message):

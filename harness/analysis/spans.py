@@ -24,7 +24,7 @@ class Span(NamedTuple):
 
 
 def spans(time: NDArray[np.float64], words: Sequence[str] | NDArray[np.str_]) -> list[Span]:
-    """Return the stretches of equal words in order. Each ends where the next begins, the last with the log."""
+    """Return the stretches of equal words in order. Each ends where the next begins."""
     words = np.asarray(words)
     if not len(words):
         return []

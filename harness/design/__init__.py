@@ -1,1 +1,1 @@
-"""Generators of committed engineering data: each is run by hand, and a test proves that its output is what is committed."""
+"""Generators of committed engineering data: run by hand; a test proves that what they write is what is committed."""

@@ -2,19 +2,20 @@
 
 `python -m harness.design.blade_element` reads engine/gta_blade.csv and writes engine/gta_propeller.xml.
 
-Blade-element-momentum theory: each annulus of the disc is given the axial and swirl velocity at which the lift of the
-blade sections equals the rate of change of momentum of the air. All states are solved by the same equation: static,
+Blade-element-momentum theory: each annulus of the disc is given the axial and swirl velocity at which the lift of
+the blade sections equals the rate of change of momentum of the air. All states are solved by the same equation: static,
 flight, windmilling, braking, reverse and feather. Angles in rad, lengths in m, speeds in m/s; coefficients as usual for
 propellers, C_T = T / (rho n^2 D^4), C_P = P / (rho n^3 D^5), J = V / (n D).
 
 Sources: Drela, QPROP Formulation (2006), for the angle that solves an annulus; Prandtl and Glauert for the tip loss;
-Leishman, Principles of Helicopter Aerodynamics (2006), sec. 2.13, for the turbulent wake state; sections: see `section`.
+Leishman, Principles of Helicopter Aerodynamics (2006), sec. 2.13, for the turbulent wake; sections: see `section`.
 """
 
 from __future__ import annotations
 
 import csv
 import math
+import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,6 +27,8 @@ Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
 BLADE_FILE = ROOT / "engine" / "gta_blade.csv"
 PROPELLER_FILE = ROOT / "engine" / "gta_propeller.xml"
+
+INCH = 0.0254
 
 BLADES = 8
 DIAMETER = 5.33
@@ -39,13 +42,13 @@ SKIN_FRICTION = 0.0035
 KORN_FACTOR = 0.94
 """Korn's technology factor; estimate: 0.87 is a NACA 6 section, 0.95 a supercritical wing."""
 TIP_MACH = 0.69
-"""Rotational tip Mach number of the tables, which have no axis for it: that of take-off (842 rpm, 340 m/s) and, within
-5 %, of high-speed cruise (780 rpm, 301 m/s at FL310). Slower turning (ground idle) is computed with a little too much."""
+"""Rotational tip Mach number of the tables, which have no axis for it: that of take-off (842 rpm, 340 m/s) and,
+within 5 %, of high-speed cruise (780 rpm, 301 m/s at FL310). Ground idle is computed with a little too much."""
 INSTALLATION = 0.97
-"""Thrust of the installed propeller over the isolated one; estimate: 3 % scrubbing drag and blockage of nacelle and wing."""
+"""Thrust of the installed propeller over the isolated one; estimate: 3 % scrubbing and blockage of nacelle and wing."""
 TURBULENT_WAKE = 1.0 / 9.0
-"""Share of the induced velocity squared in the mass flux when the wake meets the oncoming air: gives an induced velocity
-of 1.7 hover velocities at the descent rate where the mean flow through the disc is zero (Leishman, fig. 2.18)."""
+"""Share of the induced velocity squared in the mass flux when the wake meets the oncoming air: gives an induced
+velocity of 1.7 hover velocities at the descent rate where no air passes the disc on average (Leishman, fig. 2.18)."""
 
 ADVANCE = np.array([*np.arange(0.0, 1.45, 0.1), *np.arange(1.6, 4.1, 0.2), 4.5, 5.0, 5.5, 6.0])
 ANGLES = np.radians([*range(-20, 66, 2), *range(68, 93, 4)])
@@ -126,9 +129,10 @@ def middles(edges: Array) -> Array:
 def section(incidence: Array, mach: Array, chord_by_radius: Array, blade: Blade) -> tuple[Array, Array]:
     """Lift and drag coefficient of the sections at any incidence (rad) and Mach number.
 
-    Attached flow: Prandtl-Glauert slope on the Mach number normal to the swept blade, friction and form drag, Korn's drag
-    divergence with Lock's rise. Separated flow: flat plate normal force (Hoerner, Fluid-Dynamic Drag, ch. 3). Between the
-    two a smooth step at the stalling angle, which rotation delays inboard (Snel, Houwink, Bosschers, ECN-C-93-052).
+    Attached flow: Prandtl-Glauert slope on the Mach number normal to the swept blade, friction and form drag,
+    Korn's drag divergence with Lock's rise. Separated flow: flat plate normal force (Hoerner, Fluid-Dynamic Drag,
+    ch. 3). Between the two a smooth step at the stalling angle, which rotation delays inboard (Snel, Houwink,
+    Bosschers, ECN-C-93-052).
     """
     sweep = np.cos(blade.sweep)
     normal_mach = np.minimum(mach * sweep, 0.80)
@@ -136,7 +140,8 @@ def section(incidence: Array, mach: Array, chord_by_radius: Array, blade: Blade)
     zero_lift = -blade.design_lift / LIFT_SLOPE
     from_zero_lift = np.arctan2(np.sin(incidence - zero_lift), np.cos(incidence - zero_lift))
 
-    # estimate: cambered propeller sections of the ARA-D class; 1.70 puts the static thrust between the PropFan map (104 kN) and HS CR-2066 (110 kN).
+    # estimate: cambered propeller sections of the ARA-D class; 1.70 puts the static thrust of 112 kN near the public
+    # methods (PropFan map 104 kN, Hamilton Standard CR-2066 98 to 110 kN, other blade-element results 124 kN).
     highest_lift = 1.70 - 0.5 * normal_mach + 0.3 * np.sign(from_zero_lift) * blade.design_lift
     stall = highest_lift / slope
     separated = 1.0 / (1.0 + np.exp(-(np.abs(from_zero_lift) - stall - 0.03) / 0.03))
@@ -241,15 +246,17 @@ def table(name: str, values: Array) -> str:
 
 def propeller(blade: Blade) -> str:
     """The JSBSim propeller file of a blade."""
-    thrust, power = coefficients(*np.meshgrid(ADVANCE, ANGLES, indexing="ij"), blade)
+    advance, angle = np.meshgrid(ADVANCE, ANGLES, indexing="ij")
+    thrust, power = coefficients(advance, angle, blade)
     return HEAD + table("C_THRUST", thrust) + table("C_POWER", power) + "</propeller>\n"
 
 
 def main() -> None:
-    """Write the propeller file."""
+    """Write the propeller file, and say the p-factor that aircraft/gta/propulsion.xml wants."""
     blade = read_blade()
     PROPELLER_FILE.write_text(propeller(blade), encoding="utf-8")
-    print(f"{PROPELLER_FILE}\np-factor {sideways_shift(0.96, math.radians(31.6), blade) / 0.0254:.1f} in/rad")
+    shift = sideways_shift(0.96, math.radians(31.6), blade) / INCH
+    sys.stdout.write(f"{PROPELLER_FILE}\np-factor with frozen inflow {shift:.0f} in/rad\n")
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ class Moment(NamedTuple):
 class FlightLog:
     """Records every `every`-th pilot step, and every event with the aircraft's state in its own step.
 
-    The fuel used is the integral of the fuel flow over all pilot steps, to be held against the scales.
+    The fuel used is the integral of the fuel flow over the records, to be held against the scales.
     """
 
     def __init__(self, every: int = 6) -> None:
@@ -66,14 +66,24 @@ class FlightLog:
         self._on_ground = 1.0
         self._left_ground = 0.0
         self._passed: list[Event] = []
-        self._last: tuple[State, Commands, Reporter] | None = None
+        self._last: State | None = None
+        self._commands: Commands | None = None
+        self._pilot: Reporter | None = None
 
     def see(self, state: State, commands: Commands, pilot: Reporter) -> None:
         """Called once a pilot step."""
-        time, flow = state.time, state.fuel_flow
-        self._fuel_used += 0.5 * (flow + self._fuel_flow) * (time - self._time)
-        self._time = time
-        self._fuel_flow = flow
+        self._countdown -= 1
+        self._last = state
+        self._commands = commands
+        if (
+            self._countdown
+            and commands.brake == self._brake
+            and state.main_on_ground == self._on_ground
+            and not self._passed
+        ):
+            return
+        self._pilot = pilot
+        self._burn(state)
         if state.main_on_ground != self._on_ground:
             self._wheels(state)
         if commands.brake != self._brake:
@@ -81,9 +91,7 @@ class FlightLog:
         if self._passed:
             self.passages += [(event, Moment(state, self._fuel_used)) for event in self._passed]
             self._passed.clear()
-        self._last = (state, commands, pilot)
-        self._countdown -= 1
-        if not self._countdown:
+        if self._countdown <= 0:
             self._countdown = self._every
             self._record(state, commands, pilot)
 
@@ -97,8 +105,9 @@ class FlightLog:
 
     def history(self) -> History:
         """The columns recorded so far, ending with the last step seen."""
-        if self._last and (not self._rows or self._rows[-1][0] is not self._last[0]):
-            self._record(*self._last)
+        if self._last and self._commands and self._pilot and self._rows[-1][0] is not self._last:
+            self._burn(self._last)
+            self._record(self._last, self._commands, self._pilot)
         if not self._rows:
             return {"time": np.empty(0)}
         states, commands, phases, modes, targets, fuel_used = zip(*self._rows, strict=True)
@@ -128,6 +137,11 @@ class FlightLog:
         self._rows.append(
             (state, commands, pilot.phase, tuple(modes.values()), tuple(targets.values()), self._fuel_used)
         )
+
+    def _burn(self, state: State) -> None:
+        self._fuel_used += 0.5 * (state.fuel_flow + self._fuel_flow) * (state.time - self._time)
+        self._time = state.time
+        self._fuel_flow = state.fuel_flow
 
     def _wheels(self, state: State) -> None:
         self._on_ground = state.main_on_ground

@@ -1,0 +1,1 @@
+"""What to fly: the model of a mission, its reader, and its checks."""

@@ -1,25 +1,23 @@
-"""Everything about a mission that can be known without flying: can this aircraft, loaded so, fly this route?"""
+"""What can be known of a mission without flying: whether this aircraft, loaded so, can fly it on this day."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from math import pi, tan
 from pathlib import Path
-from typing import NamedTuple
 
 from harness.errors import InputError, InputErrors, did_you_mean
 from harness.manual import FlightManual, read_manual, words_of
+from harness.mission.envelope import STALL_MARGIN, Envelope
 from harness.mission.model import Leg, Mission, Position
 from harness.mission.reader import read_mission
 from harness.navigation.database import Database, Ils, Runway, load
-from harness.plan import PhasePlan
+from harness.plan import Condition, PhasePlan, Step
 from harness.plan_reader import check_plans, check_step
-from harness.units import DEG, FT, G0, HPA, KM, KT, NM, Level, Speed, show
-from harness.world import airspeed, atmosphere, earth
+from harness.units import DEG, FT, G0, HPA, KM, KT, NM, show
+from harness.world import earth
 from harness.xml_source import MOST_FAULTS
 
 TERRAIN_CLEARANCE = 1000 * FT
-STALL_MARGIN = 1.2  # of the clean stall speed, for a leg
-SLOWEST_DECISION = 0.8  # of the stall speed with those flaps: the slipstream lifts too, but not that much
 HARDEST_ACCELERATION = 0.5 * G0  # no transport aircraft gains or loses speed faster on a runway
 FARTHEST_TAXI = 10 * KM
 NEAREST_LAST_WAYPOINT = 3 * NM  # before the threshold: less leaves no room to line up
@@ -30,16 +28,6 @@ DAY = {
     "wind-speed": (0.0, 60.0, "m/s", 1.0),
 }
 """The weather that has been seen on Earth near the ground, rounded outwards (WMO archive of extremes)."""
-
-DECISION_SPEEDS = {"V1": "take-off", "VR": "take-off", "V2": "take-off", "VREF": "landing", "VAPP": "landing"}
-"""Speeds flown with these flaps, where the manual has both."""
-
-
-class Airspeeds(NamedTuple):
-    """One airspeed as calibrated airspeed (m/s) and as Mach number."""
-
-    cas: float
-    mach: float
 
 
 def check_file(path: str | Path, overrides: Iterable[str] = ()) -> Mission:
@@ -62,10 +50,11 @@ class _Checker:
     def __init__(self, mission: Mission, manual: FlightManual, database: Database) -> None:
         self.mission = mission
         self.manual = manual
-        self.flown = manual.with_mission(mission)
+        self.envelope = Envelope(mission, manual)
+        self.flown = self.envelope.manual
         self.departure = database.runway(mission.departure.airport, mission.departure.runway)
         self.arrival = database.runway(mission.arrival.airport, mission.arrival.runway)
-        self.mass = mission.loading.total(manual.limits["operating-empty-mass"])
+        self.mass = self.envelope.mass
 
     def faults(self) -> Iterator[InputError]:
         """Every fault; those that only follow from a wrong mass or an impossible day are left out."""
@@ -105,7 +94,8 @@ class _Checker:
             empty = show(limits["operating-empty-mass"], "t", 1)
             yield self._fault(
                 f"loading/{given}",
-                f"the payload would be {show(payload, 't', 1)}: the empty aircraft has {empty}, the fuel {show(fuel, 't', 1)}",
+                f"the payload would be {show(payload, 't', 1)}: the empty aircraft has {empty}, "
+                f"the fuel {show(fuel, 't', 1)}",
                 "more take-off mass, or less fuel",
             )
         elif self.mass > limits["maximum-take-off-mass"]:
@@ -114,13 +104,12 @@ class _Checker:
             yield self._fault(f"loading/{given}", what, "less payload or fuel")
         elif self.mass - fuel > limits["maximum-zero-fuel-mass"]:
             most = show(limits["maximum-zero-fuel-mass"], "t", 1)
-            what = f"the mass without fuel, {show(self.mass - fuel, 't', 1)}, is above the zero-fuel limit of {most}"
+            mass = show(self.mass - fuel, "t", 1)
+            what = f"the mass without fuel, {mass}, is above the zero-fuel limit of {most}"
             yield self._fault(f"loading/{given}", what, "less payload")
         elif self.mass < limits["minimum-flight-mass"]:
             least = show(limits["minimum-flight-mass"], "t", 1)
-            what = (
-                f"the take-off mass of {show(self.mass, 't', 1)} is below the minimum flight mass of {least}"
-            )
+            what = f"the take-off mass of {show(self.mass, 't', 1)} is below the minimum of {least}"
             yield self._fault(f"loading/{given}", what, "more payload or fuel")
 
     def _environment(self) -> Iterator[InputError]:
@@ -140,7 +129,7 @@ class _Checker:
                 yield self._fault(path, what, did_you_mean(name, self.manual.speeds))
                 continue
             speed = self.flown.speed(name, self.mass)
-            low, high = self._decision_range(name)
+            low, high = self.envelope.decision_range(name)
             remedy = f"the manual says {_knots(self.manual.speed(name, self.mass))}"
             if speed > high:
                 what = f"{name} of {_knots(speed)} is above {_knots(high)}, the limit with these flaps"
@@ -152,15 +141,6 @@ class _Checker:
             else:
                 yield from self._order(name, path)
 
-    def _decision_range(self, name: str) -> tuple[float, float]:
-        """The lowest and the highest value of a named speed, m/s CAS."""
-        flaps = DECISION_SPEEDS.get(name, "up")
-        setting = next((setting for setting in self.manual.flaps if setting.name == flaps), None)
-        if setting is None:
-            return 0.0, self.manual.limits["VMO"]
-        slowest = SLOWEST_DECISION * self.manual.stall_speed(self.mass, flaps)
-        return slowest, min(self.manual.limits["VMO"], setting.maximum_speed)
-
     def _order(self, changed: str, path: str) -> Iterator[InputError]:
         for low, high in (("V1", "VR"), ("VR", "V2")):
             if changed in (low, high) and {low, high} <= self.flown.speeds.keys():
@@ -171,8 +151,8 @@ class _Checker:
 
     def _airspeed(self, leg: Leg) -> Iterator[InputError]:
         limits, path = self.manual.limits, f"route/waypoint[{leg.name}]/speed"
-        speed = self._speeds_of(leg.speed, leg.level)
-        slowest = STALL_MARGIN * self.manual.stall_speed(self.mass, "up")
+        speed = self.envelope.airspeeds(leg.speed, leg.level)
+        slowest = self.envelope.slowest
         said = f"{leg.name}: {leg.speed} at {leg.level}"
         if speed.cas > limits["VMO"]:
             as_cas = "" if leg.speed.kind == "CAS" else f" is {_knots(speed.cas)} CAS and"
@@ -189,27 +169,6 @@ class _Checker:
                 path, f"{said}{as_cas} is too slow", f"at least {_knots(slowest)} CAS: {margin}"
             )
 
-    def _speeds_of(self, speed: Speed, level: Level) -> Airspeeds:
-        altitude = self._pressure_altitude(level)
-        pressure = atmosphere.pressure(altitude)
-        if speed.kind == "CAS":
-            return Airspeeds(speed.value, airspeed.mach_from_cas(speed.value, pressure))
-        mach = speed.value
-        if speed.kind == "TAS":
-            mach = airspeed.mach_from_tas(
-                speed.value, atmosphere.temperature(altitude, self.mission.environment.isa_deviation)
-            )
-        return Airspeeds(airspeed.cas_from_mach(mach, pressure), mach)
-
-    def _pressure_altitude(self, level: Level) -> float:
-        """Kept within the aircraft's reach: a level beyond it is a fault of its own."""
-        offset = 0.0 if level.kind == "FL" else atmosphere.pressure_altitude(self.mission.environment.qnh)
-        return min(max(level.altitude + offset, -1000.0), self.manual.limits["maximum-altitude"])
-
-    def _altitude(self, level: Level) -> float:
-        offset = atmosphere.pressure_altitude(self.mission.environment.qnh) if level.kind == "FL" else 0.0
-        return level.altitude - offset
-
     def _level(self, leg: Leg) -> Iterator[InputError]:
         path, highest = f"route/waypoint[{leg.name}]/level", self.manual.limits["maximum-altitude"]
         if leg.level.altitude > highest:
@@ -225,7 +184,7 @@ class _Checker:
         if leg is self.mission.legs[-1]:
             grounds.append((self.arrival.elevation, f"{self.arrival.airport} {self.arrival.designator}"))
         ground, where = max(grounds, default=(0.0, "the sea"))
-        if self._altitude(leg.level) < ground + TERRAIN_CLEARANCE:
+        if self.envelope.altitude(leg.level) < ground + TERRAIN_CLEARANCE:
             what = f"{leg.name}: {leg.level} is too low: {where} lies at {show(ground, 'ft')}"
             yield self._fault(path, what, f"at least {show(ground + TERRAIN_CLEARANCE, 'ft')}")
 
@@ -242,7 +201,8 @@ class _Checker:
                 and leg.fix.distance is None
                 and _apart(leg.course_true, arriving) > pi / 2
             ):
-                what = f"{leg.name}: the course of {leg.course_true / DEG:.0f} deg true leads away from its station"
+                course = f"{leg.course_true / DEG:.0f} deg true"
+                what = f"{leg.name}: the course of {course} leads away from its station"
                 yield self._fault(
                     f"{path}/course", what, f"from {before} it lies {bearing / DEG:.0f} deg true"
                 )
@@ -261,9 +221,13 @@ class _Checker:
             )
             return
         glide = runway.elevation + along * tan(Ils.GLIDE_ANGLE)
-        if self._altitude(last.level) > glide + TERRAIN_CLEARANCE:
-            what = f"{last.name}, the last waypoint, is above the glide slope of {name}, {show(glide, 'ft')} there"
-            yield self._fault(f"{path}/level", what, "the slope is taken from below: lower, or farther out")
+        if self.envelope.altitude(last.level) > glide + TERRAIN_CLEARANCE:
+            what = f"{last.name}, the last waypoint, is above the glide slope of {name}"
+            yield self._fault(
+                f"{path}/level",
+                what,
+                f"the slope is at {show(glide, 'ft')} there, and taken from below: lower, or farther out",
+            )
 
     def _runways(self) -> Iterator[InputError]:
         for part, runway, name in (("departure", self.departure, "VR"), ("arrival", self.arrival, "VREF")):
@@ -295,17 +259,19 @@ class _Checker:
 
     def _removals(self, plan: PhasePlan) -> Iterator[InputError]:
         mine = self.manual.phases.get(plan.name, PhasePlan(plan.name, (), ()))
-        items = [item for checklist in mine.checklists for item in checklist.items]
-        removed = [entry for entry in plan.steps if entry.remove]
-        names = [step.name for step in mine.steps]
-        gone = [(entry.name, entry.file, entry.line, names) for entry in removed]
-        names = [item.name for item in items]
-        for checklist in plan.checklists:
-            gone += [(item.name, item.file, item.line, names) for item in checklist.items if item.remove]
-        for name, file, line, known in gone:
-            if name not in known:
-                what = f'the manual has no "{name}" in {plan.name} to remove'
-                yield InputError(what, file=file, line=line, remedy=did_you_mean(name, known))
+        changed: list[tuple[Sequence[Step | Condition], list[str]]] = [
+            (plan.steps, [step.name for step in mine.steps]),
+            (
+                [item for checklist in plan.checklists for item in checklist.items],
+                [item.name for checklist in mine.checklists for item in checklist.items],
+            ),
+        ]
+        for entries, known in changed:
+            for entry in entries:
+                if entry.remove and entry.name not in known:
+                    what = f'the manual has no "{entry.name}" in {plan.name} to remove'
+                    remedy = did_you_mean(entry.name, known)
+                    yield InputError(what, file=entry.file, line=entry.line, remedy=remedy)
 
 
 def _knots(speed: float) -> str:

@@ -30,7 +30,7 @@ class Stand(NamedTuple):
 
 
 class Fix(NamedTuple):
-    """Where a leg ends, radians; `station` if it is on or defined by one, `distance` from it in metres if a DME fix."""
+    """Where a leg ends, radians; `station` if at or from one, `distance` from it in metres if a DME fix."""
 
     latitude: float
     longitude: float
@@ -39,7 +39,7 @@ class Fix(NamedTuple):
 
 
 class Leg(NamedTuple):
-    """One line of the route: fly to the fix, at this speed and level. `course_true` in radians, of tracking legs."""
+    """One line of the route: fly to the fix, at this speed and level. Tracking legs have a `course_true`, rad."""
 
     name: str
     fix: Fix
@@ -53,7 +53,7 @@ class Leg(NamedTuple):
 
 
 class Loading(NamedTuple):
-    """What is on board at brake release, kg: fuel and either the take-off mass or the payload, the other is None."""
+    """What is on board at brake release, kg: fuel, and take-off mass or payload; the other is None."""
 
     takeoff_mass: float | None
     payload: float | None
@@ -82,7 +82,7 @@ class Environment(NamedTuple):
 
 
 class Departure(NamedTuple):
-    """Where it begins: on the stand, then along `taxi` to the runway; without a stand lined up on the runway."""
+    """Where it begins: on the stand, then along `taxi`; without a stand lined up on the runway."""
 
     airport: str
     runway: str
@@ -103,8 +103,8 @@ class Arrival(NamedTuple):
 class Mission:
     """All of a mission file.
 
-    `speeds` and `phases` change the flight manual for this mission only. `text` is the mission as flown, with its
-    variants and overrides applied. `places` tells where each part was written (file, line), by its override path.
+    `speeds` and `phases` change the flight manual for this mission only. `text` is the mission as flown, with
+    its variants and overrides applied. `places` tells where each part was written (file, line), by its path.
     """
 
     name: str

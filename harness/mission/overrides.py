@@ -1,8 +1,8 @@
 """Changing values of a mission before it is read: `--set PATH=VALUE`, and the <set> lines of a variant.
 
 A path walks down from <mission>: `loading/take-off-mass`, `route/waypoint[WP3]/speed`,
-`phase[T/O.run]/checklist[T/O.rotation]/item[rotation speed]/at-least`. The last word is an attribute (or `description`);
-`[...]` picks an element by its name, or by the phase a checklist leads to.
+`phase[T/O.run]/checklist[T/O.rotation]/item[rotation speed]/at-least`. The last word is an attribute (or
+`description`); `[...]` picks an element by its name, or by the phase a checklist leads to.
 """
 
 import re
@@ -15,7 +15,7 @@ from harness.xml_source import Element, Source, children, shorten
 
 _STEP = re.compile(r"([^/\[\]]+)(?:\[([^\[\]]*)\])?(/|$)")
 _OPTIONAL = {"environment", "speed", "description"}
-"""Elements that are made when a path names one that is not there: all their attributes have a meaning alone."""
+"""Elements that are made when a path names one that is not there: their attributes mean something alone."""
 
 
 class Override(NamedTuple):
@@ -38,7 +38,10 @@ def from_option(text: str) -> Override:
 
 
 def apply(source: Source, override: Override) -> None:
-    """Put the value into the tree and remember where it came from. Raises InputError for a path that leads nowhere."""
+    """Put the value into the tree and remember where it came from.
+
+    Raises InputError for a path that leads nowhere.
+    """
     steps = _STEP.findall(override.path)
     if (
         not steps

@@ -1,9 +1,8 @@
-"""Reads a mission file into a Mission. Every fault has its file and line, and one reading reports them all."""
+"""Reads a mission file into a Mission. Every fault has its file and line; one reading reports them all."""
 
-import re
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
-from typing import cast
 
 from lxml import etree
 
@@ -13,27 +12,20 @@ from harness.mission.model import (
     Arrival,
     Departure,
     Environment,
-    Fix,
     Leg,
     Loading,
     Mission,
-    Mode,
     Position,
     Stand,
-    Turn,
 )
 from harness.mission.overrides import Override, apply, from_option, path_of
-from harness.navigation.database import Database, Runway, Station, load
-from harness.plan_reader import read_phase, read_step
-from harness.units import DEG, Level, Speed, UnitError, parse, parse_direction, parse_level, parse_speed
-from harness.world import earth
+from harness.mission.waypoint import NO_SPEED, coordinates, not_found, read_leg
+from harness.navigation.database import Database, Runway, load
+from harness.plan_reader import read_phase
+from harness.units import Speed, UnitError, parse_direction, parse_speed
 from harness.xml_source import NAN, Element, Source, children
 
 SCHEMA = "mission.xsd"
-
-
-_NO_SPEED = Speed("CAS", NAN)
-_NO_LEVEL = Level("ALT", NAN)
 
 
 def read_mission(
@@ -50,7 +42,7 @@ def read_mission(
     source.validate()
     mission = _Reader(source, database or load()).mission()
     source.finish()
-    return mission
+    return replace(mission, source_path=Path(path))  # of a variant: not that of its base
 
 
 def _source(path: Path) -> Source:
@@ -130,7 +122,7 @@ class _Reader:
         elements = [] if aircraft is None else list(children(aircraft, "speed"))
         self.source.distinct(elements, "name")
         return {
-            element.get("name", ""): self.source.read(element, "value", _decision_speed, _NO_SPEED)
+            element.get("name", ""): self.source.read(element, "value", _decision_speed, NO_SPEED)
             for element in elements
         }
 
@@ -141,7 +133,7 @@ class _Reader:
             self.source.fault(
                 "<loading> needs the fuel and either the take-off mass or the payload",
                 element,
-                remedy='write <loading take-off-mass="100 t" fuel="12 t"/>, or payload= in place of take-off-mass=',
+                remedy='write <loading take-off-mass="100 t" fuel="12 t"/>, or payload= for take-off-mass=',
             )
         return Loading(
             self.source.quantity(element, "take-off-mass", "mass") if element.get("take-off-mass") else None,
@@ -185,127 +177,25 @@ class _Reader:
         return (
             runway.airport if runway else "",
             runway.designator if runway else "",
-            tuple(Position(*self._coordinates(point)) for point in points),
+            tuple(Position(*coordinates(self.source, point)) for point in points),
             None
             if stand is None
-            else Stand(*self._coordinates(stand), self.source.read(stand, "heading", _true_direction, NAN)),
+            else Stand(
+                *coordinates(self.source, stand), self.source.read(stand, "heading", _true_direction, NAN)
+            ),
         )
 
     def _runway(self, element: Element) -> Runway | None:
         try:
             return self.database.runway(element.get("airport", ""), element.get("runway", ""))
         except LookupError as error:
-            self._not_found(error, element, "runway")
+            not_found(self.source, error, element, "runway")
             return None
 
     def _legs(self, route: Element | None) -> tuple[Leg, ...]:
         waypoints = [] if route is None else list(children(route, "waypoint"))
         self.source.distinct(waypoints, "name")
-        return tuple(self._leg(waypoint) for waypoint in waypoints)
-
-    def _leg(self, element: Element) -> Leg:
-        mode = cast(Mode, element.get("mode"))  # the schema has checked these two
-        station = self._station(element)
-        course = self._course(element, mode, station)
-        turn = cast(Turn, element.get("turn", "fly-by" if mode == "direct" else "fly-over"))
-        return Leg(
-            name=element.get("name", ""),
-            fix=self._fix(element, mode, station, course),
-            mode=mode,
-            course_true=course,
-            speed=self.source.read(element, "speed", parse_speed, _NO_SPEED),
-            level=self.source.read(element, "level", parse_level, _NO_LEVEL),
-            turn=turn,
-            actions=tuple(read_step(self.source, action) for action in children(element, "action")),
-            line=self.source.place(element)[1] or 1,
-        )
-
-    def _station(self, element: Element) -> Station | None:
-        ident = element.get("station")
-        if ident is None:
-            return None
-        try:
-            return self.database.station(ident)
-        except LookupError as error:
-            self._not_found(error, element, "station")
-            return None
-
-    def _course(self, element: Element, mode: Mode, station: Station | None) -> float | None:
-        if mode != "tracking":
-            if element.get("course") is not None:
-                what = f"a {mode} leg has no course"
-                self.source.fault(what, element, "course", 'delete it, or write mode="tracking"')
-            return None
-        if not self.source.needed(element, "course", "148 deg magnetic"):
-            return None
-        course, magnetic = self.source.read(element, "course", parse_direction, (NAN, False))
-        if magnetic and station is not None:
-            course = (course + station.declination) % (360 * DEG)
-        return course
-
-    def _fix(self, element: Element, mode: Mode, station: Station | None, course: float | None) -> Fix:
-        placed = element.get("latitude") is not None or element.get("longitude") is not None
-        if (element.get("station") is not None) == placed:
-            self.source.fault(
-                "a waypoint is either at a station or at a latitude and a longitude",
-                element,
-                remedy='write station="COL", or latitude="48.35 deg" longitude="11.79 deg"',
-            )
-            return Fix(NAN, NAN)
-        if placed:
-            return self._place(element, mode)
-        if station is None:
-            return Fix(NAN, NAN)
-        if mode != "direct" and not station.has_bearing:
-            what = f"{station.ident} is a {station.kind}: it gives no bearing to fly a {mode} leg by"
-            self.source.fault(what, element, "station", 'write mode="direct", or choose another station')
-        if element.get("distance") is None:
-            return Fix(station.latitude, station.longitude, station)
-        return self._dme_fix(element, station, course)
-
-    def _place(self, element: Element, mode: Mode) -> Fix:
-        for attribute in ("latitude", "longitude"):
-            self.source.needed(element, attribute, "48.35 deg")
-        if mode != "direct":
-            what = f"a {mode} leg needs a station to receive"
-            self.source.fault(what, element, remedy='name one with station="...", or write mode="direct"')
-        if element.get("distance") is not None:
-            self.source.fault(
-                "a distance needs a station to measure it from", element, "distance", "delete it"
-            )
-        return Fix(*self._coordinates(element))
-
-    def _dme_fix(self, element: Element, station: Station, course: float | None) -> Fix:
-        distance = self.source.quantity(element, "distance", "length")
-        if course is None:
-            if element.get("mode") != "tracking":
-                what = "only a tracking leg can end at a distance from its station"
-                self.source.fault(
-                    what, element, "distance", 'delete it, or write mode="tracking" course="..."'
-                )
-        elif not station.has_dme:
-            self.source.fault(f"{station.ident} is a {station.kind}: it has no DME", element, "distance")
-        elif not 0 < distance <= earth.MEAN_RADIUS:
-            if distance == distance:  # NaN has been told already
-                text = element.get("distance")
-                self.source.fault(
-                    f'distance="{text}" is not a distance from the station', element, "distance"
-                )
-        elif course == course:
-            return Fix(
-                *earth.direct(station.latitude, station.longitude, course, distance), station, distance
-            )
-        return Fix(station.latitude, station.longitude, station)
-
-    def _coordinates(self, element: Element) -> tuple[float, float]:
-        return (
-            self.source.read(element, "latitude", lambda text: _within(text, 90), NAN),
-            self.source.read(element, "longitude", lambda text: _within(text, 180), NAN),
-        )
-
-    def _not_found(self, error: LookupError, element: Element, attribute: str) -> None:
-        what, _, remedy = str(error.args[0]).partition("; ")
-        self.source.fault(what, element, attribute, remedy)
+        return tuple(read_leg(self.source, self.database, waypoint) for waypoint in waypoints)
 
 
 def _decision_speed(text: str) -> Speed:
@@ -322,10 +212,3 @@ def _true_direction(text: str) -> float:
             f'"{text}" is magnetic, but there is no station here to take the declination from; write true'
         )
     return direction
-
-
-def _within(text: str, degrees: float) -> float:
-    angle = parse(text, "angle")
-    if abs(angle) > degrees * DEG:
-        raise UnitError(f'"{text}" is beyond {degrees} deg')
-    return angle

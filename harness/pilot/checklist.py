@@ -13,38 +13,39 @@ from harness.vocabulary import QUANTITIES
 if TYPE_CHECKING:
     from harness.pilot.pilot import Pilot
 
-Measure = Callable[["Pilot", State], float]
+Number = Callable[[State], float]
+Test = Callable[[State], bool]
 
-MEASURES: Mapping[str, Measure] = {
-    "time-in-phase": lambda pilot, state: state.time - pilot.phase_begin,
-    "cas": lambda pilot, state: state.cas,
-    "ground-speed": lambda pilot, state: hypot(state.velocity_north, state.velocity_east),
-    "mach": lambda pilot, state: state.mach,
-    "altitude": lambda pilot, state: state.altitude,
-    "height": lambda pilot, state: state.height,
-    "vertical-speed": lambda pilot, state: state.vertical_speed,
-    "pitch": lambda pilot, state: state.pitch,
-    "bank": lambda pilot, state: abs(state.roll),
-    "flap": lambda pilot, state: state.flap,
-    "gear": lambda pilot, state: state.gear,
-    "propeller-speed": lambda pilot, state: state.propeller_speed,
-    "main-gear-on-ground": lambda pilot, state: state.main_on_ground,
-    "nose-gear-on-ground": lambda pilot, state: state.nose_on_ground,
-    "level-above": lambda pilot, state: pilot.route.level_error(state),
-    "level-below": lambda pilot, state: -pilot.route.level_error(state),
-    "level-captured": lambda pilot, state: float(pilot.level_captured(state)),
-    "speed-error": lambda pilot, state: abs(pilot.target_cas - state.cas),
-    "waypoints-remaining": lambda pilot, state: float(pilot.route.waypoints_remaining),
-    "distance-to-waypoint": lambda pilot, state: pilot.route.remaining,
-    "distance-to-threshold": lambda pilot, state: pilot.route.distance_to_threshold,
-    "distance-past-threshold": lambda pilot, state: pilot.runway_offset(state)[0],
-    "localizer-captured": lambda pilot, state: float(abs(pilot.route.localizer.dots) < 1.0),
-    "localizer-dots": lambda pilot, state: abs(pilot.route.localizer.dots),
-    "glide-slope-dots": lambda pilot, state: pilot.route.glide_slope.dots,
-    "glide-slope-alive": lambda pilot, state: float(pilot.route.glide_slope.received),
-    "taxi-distance": lambda pilot, state: pilot.taxi_distance,
-    "heading-error": lambda pilot, state: abs(pilot.heading_error(state)),
-    "centreline-deviation": lambda pilot, state: abs(pilot.runway_offset(state)[1]),
+MEASURES: Mapping[str, Callable[["Pilot"], Number]] = {
+    "time-in-phase": lambda pilot: lambda state: state.time - pilot.phase_begin,
+    "cas": lambda pilot: lambda state: state.cas,
+    "ground-speed": lambda pilot: lambda state: hypot(state.velocity_north, state.velocity_east),
+    "mach": lambda pilot: lambda state: state.mach,
+    "altitude": lambda pilot: lambda state: state.altitude,
+    "height": lambda pilot: lambda state: state.height,
+    "vertical-speed": lambda pilot: lambda state: state.vertical_speed,
+    "pitch": lambda pilot: lambda state: state.pitch,
+    "bank": lambda pilot: lambda state: abs(state.roll),
+    "flap": lambda pilot: lambda state: state.flap,
+    "gear": lambda pilot: lambda state: state.gear,
+    "propeller-speed": lambda pilot: lambda state: state.propeller_speed,
+    "main-gear-on-ground": lambda pilot: lambda state: state.main_on_ground,
+    "nose-gear-on-ground": lambda pilot: lambda state: state.nose_on_ground,
+    "level-above": lambda pilot: lambda state: pilot.level_error,
+    "level-below": lambda pilot: lambda state: -pilot.level_error,
+    "level-captured": lambda pilot: lambda state: float(pilot.level_captured(state)),
+    "speed-error": lambda pilot: lambda state: abs(pilot.target_cas - state.cas),
+    "waypoints-remaining": lambda pilot: lambda state: pilot.route.waypoints_remaining,
+    "distance-to-waypoint": lambda pilot: lambda state: pilot.route.remaining,
+    "distance-to-threshold": lambda pilot: lambda state: pilot.route.distance_to_threshold,
+    "distance-past-threshold": lambda pilot: lambda state: pilot.runway_offset(state)[0],
+    "localizer-captured": lambda pilot: lambda state: float(abs(pilot.route.localizer.dots) < 1.0),
+    "localizer-dots": lambda pilot: lambda state: abs(pilot.route.localizer.dots),
+    "glide-slope-dots": lambda pilot: lambda state: pilot.route.glide_slope.dots,
+    "glide-slope-alive": lambda pilot: lambda state: float(pilot.route.glide_slope.received),
+    "taxi-distance": lambda pilot: lambda state: pilot.taxi_distance,
+    "heading-error": lambda pilot: lambda state: abs(pilot.heading_error(state)),
+    "centreline-deviation": lambda pilot: lambda state: abs(pilot.runway_offset(state)[1]),
 }
 """How the pilot measures each word of `vocabulary.QUANTITIES`, SI; yes is 1, no is 0."""
 
@@ -60,30 +61,22 @@ _TOLERANCE = 0.005  # a position asked for exactly (`is`) is reached this close 
 
 
 class Item(NamedTuple):
-    """A condition made ready to be read: its number looked up, its comparison chosen."""
+    """A condition made ready to be read: what is measured, the number it is held against, and the comparison."""
 
     condition: Condition
-    measure: Measure
-    required: Callable[[State], float]
+    measure: Number
+    required: Number
+    holds: Test
 
-    def holds(self, pilot: "Pilot", state: State) -> bool:
-        """Whether it is fulfilled now."""
-        value, required = self.measure(pilot, state), self.required(state)
-        relation = self.condition.relation
-        if relation == "at-least":
-            return value >= required
-        if relation == "at-most":
-            return value <= required
-        return abs(value - required) <= _TOLERANCE
-
-    def achieved(self, pilot: "Pilot", state: State) -> str:
+    def achieved(self, state: State) -> str:
         """The measured value as text with its unit."""
-        return self._text(self.measure(pilot, state))
+        return self._text(self.measure(state))
 
     def wanted(self, state: State) -> str:
         """The required value as text with its unit, and its name if it has one."""
         text = self._text(self.required(state))
-        named = "" if text == self.condition.required else f" ({self.condition.required})"
+        written = self.condition.required
+        named = f" ({written})" if written[:1].isalpha() and written not in ("yes", "no") else ""
         return f"{self.condition.relation.replace('-', ' ')} {text}{named}"
 
     def _text(self, value: float) -> str:
@@ -94,19 +87,24 @@ class Item(NamedTuple):
         return show(value, unit, digits) if unit else f"{value:.{digits}f}"
 
 
-class OpenChecklist(NamedTuple):
+class OpenChecklist:
     """The way to another phase, ready to be read."""
 
-    to: str
-    items: tuple[Item, ...]
+    def __init__(self, to: str, items: tuple[Item, ...]) -> None:
+        self.to = to
+        self.items = items
+        self._tests = tuple(entry.holds for entry in items)
 
-    def complete(self, pilot: "Pilot", state: State) -> bool:
+    def complete(self, state: State) -> bool:
         """Whether every item holds at once."""
-        return all(item.holds(pilot, state) for item in self.items)
+        for holds in self._tests:  # noqa: SIM110  a plain loop: this runs at every pilot step
+            if not holds(state):
+                return False
+        return True
 
-    def waiting(self, pilot: "Pilot", state: State) -> list[Item]:
+    def waiting(self, state: State) -> list[Item]:
         """The items that do not hold yet."""
-        return [item for item in self.items if not item.holds(pilot, state)]
+        return [entry for entry in self.items if not entry.holds(state)]
 
 
 def prepared(checklist: Checklist, pilot: "Pilot", mass: float) -> OpenChecklist:
@@ -116,13 +114,14 @@ def prepared(checklist: Checklist, pilot: "Pilot", mass: float) -> OpenChecklist
 
 def item(condition: Condition, pilot: "Pilot", mass: float) -> Item:
     """Look up the numbers of one condition."""
-    return Item(condition, MEASURES[condition.quantity], _required(condition, pilot, mass))
-
-
-def _required(condition: Condition, pilot: "Pilot", mass: float) -> Callable[[State], float]:
+    measure = MEASURES[condition.quantity](pilot)
     reference = parse_reference(condition.required, QUANTITIES[condition.quantity])
     if reference.name == "leg-speed":
-        return lambda state: pilot.route.target_cas + reference.offset
+
+        def following(state: State) -> float:
+            return pilot.route.target_cas + reference.offset
+
+        return Item(condition, measure, following, lambda state: _compare(condition, measure(state), following(state)))
     if condition.quantity == "flap" and reference.name:
         value = pilot.manual.flap(reference.name).position
     elif condition.quantity == "gear" and reference.name:
@@ -131,4 +130,20 @@ def _required(condition: Condition, pilot: "Pilot", mass: float) -> Callable[[St
         value = pilot.named_speed(reference.name, mass) + reference.offset
     else:
         value = reference.offset
-    return lambda state: value
+    return Item(condition, measure, lambda state: value, _test(condition, measure, value))
+
+
+def _test(condition: Condition, measure: Number, value: float) -> Test:
+    if condition.relation == "at-least":
+        return lambda state: measure(state) >= value
+    if condition.relation == "at-most":
+        return lambda state: measure(state) <= value
+    return lambda state: abs(measure(state) - value) <= _TOLERANCE
+
+
+def _compare(condition: Condition, value: float, required: float) -> bool:
+    if condition.relation == "at-least":
+        return value >= required
+    if condition.relation == "at-most":
+        return value <= required
+    return abs(value - required) <= _TOLERANCE

@@ -11,6 +11,7 @@ from harness.world.local import LocalFrame, Point, filleted
 STOP_DECELERATION = 0.5  # m/s2, gentle; the taxi speed falls along this towards a turn or the end of the path
 LATERAL_ACCELERATION = 0.6  # m/s2 in a turn: what taxiing crews accept
 LOOK_AHEAD = 60  # path points (metres) over which the speed is planned
+SLIP_SPEED = 10.0  # m/s: from here on the track is steered, below it the heading
 NEAREST_WINDOW = 30  # path points searched for the nearest one, so that a path may cross itself
 
 
@@ -100,13 +101,13 @@ class GroundSteering:
         self._rate_gain = gains["ground-yaw-rate-gain"]
         self._heading_time = gains["ground-heading-time-constant"]
         self._line_time = gains["ground-cross-track-time-constant"]
-        self._line_integral_gain = gains["ground-cross-track-integral"]
+        self._trim_gain = gains["ground-yaw-trim-gain"]
         self._rudder_gain = gains["ground-rudder-gain"]
-        self._integral = 0.0
+        self._trim = 0.0
 
     def reset(self) -> None:
         """Forget the crosswind trim."""
-        self._integral = 0.0
+        self._trim = 0.0
 
     def pursue(self, state: State, bearing_error: float, look_ahead: float) -> tuple[float, float]:
         """Return (nose wheel, rudder) towards a point `look_ahead` metres away."""
@@ -116,17 +117,19 @@ class GroundSteering:
 
     def hold_line(self, state: State, course: float, across: float, dt: float) -> tuple[float, float]:
         """Return (nose wheel, rudder) that bring the aircraft onto the centreline and keep it there."""
-        speed = max(hypot(state.velocity_north, state.velocity_east), 3.0)
+        speed = hypot(state.velocity_north, state.velocity_east)
+        # In a crosswind the wheels slip: what must lie along the runway is the track, not the nose.
+        track = atan2(state.velocity_east, state.velocity_north) if speed > SLIP_SPEED else state.heading
+        speed = max(speed, 3.0)
         reach = max(speed * self._line_time, 25.0)
-        if speed > 10.0:
-            self._integral = clamp(self._integral + self._line_integral_gain * across * dt, -0.1, 0.1)
-        heading = course - clamp(atan(across / reach), -0.4, 0.4) - self._integral
-        wanted = wrap(heading - state.heading) / self._heading_time
+        wanted = wrap(course - clamp(atan(across / reach), -0.4, 0.4) - track) / self._heading_time
         missing = wanted - state.yaw_rate
-        wheel = self._wheelbase / speed * (wanted + self._rate_gain * missing) / self._steering_angle(speed)
+        if speed > SLIP_SPEED:
+            self._trim = clamp(self._trim + self._trim_gain * missing * dt, -0.15, 0.15)
+        turn = wanted + self._rate_gain * missing + self._trim
+        wheel = self._wheelbase / speed * turn / self._steering_angle(speed)
         share = clamp((speed - 15.0) / 20.0, 0.0, 1.0)
-        rudder = share * self._rudder_gain * (wanted + missing)
-        return clamp(wheel, -1.0, 1.0), clamp(rudder, -1.0, 1.0)
+        return clamp(wheel, -1.0, 1.0), clamp(share * self._rudder_gain * turn, -1.0, 1.0)
 
     def _steering_angle(self, speed: float) -> float:
         """Nose-wheel angle at full deflection of the tiller at this ground speed, rad."""

@@ -15,7 +15,7 @@ from harness.pilot.ground import Centreline, GroundSteering, TaxiPath
 from harness.pilot.machine import END, START, PhaseGraph
 from harness.pilot.modes.horizontal import HorizontalMode
 from harness.pilot.modes.speed import SpeedMode
-from harness.pilot.modes.vertical import VerticalMode
+from harness.pilot.modes.vertical import DIGITS, VerticalMode
 from harness.pilot.route import NavigationComputer, Passage
 from harness.plan import Step
 from harness.plan_reader import parse_reference
@@ -24,7 +24,10 @@ from harness.units import parse
 from harness.vocabulary import CONTROLS
 from harness.world.local import LocalFrame
 
-ROUTE_PERIOD = 3  # pilot steps between two looks at the route: positions change slowly
+OUTER_PERIOD = 3  # pilot steps between two turns of the outer loops in flight: route, bank, airspeed
+FAST = frozenset({"time-in-phase", "cas", "ground-speed", "height", "vertical-speed", "pitch", "main-gear-on-ground"})
+"""Quantities renewed at every pilot step; what waits for another one is read when the outer loops turn."""
+LEVEL_REACHED = 30.0  # m: a level this near is captured however slowly it is approached
 DEFAULT_TIME_LIMIT = 7200.0  # s in one phase, where the manual says nothing
 OVERRUN_MARGIN = 5.0  # m past the end or the edge of the runway
 
@@ -58,6 +61,7 @@ class Pilot:
         self.phase_begin = 0.0
         self.target_cas = 0.0
         self.taxi_distance = inf
+        self.level_error = 0.0  # height of the wanted level above the aircraft, m
         self.listeners: list[Callable[[Event], None]] = []
         self._graph = PhaseGraph()
         self.phase = START
@@ -70,11 +74,18 @@ class Pilot:
         self._braking = 0.0  # taxi brakes
         self._speed_words = "leg-speed"
         self._speed_value = 0.0
-        self._steps: Sequence[_ReadyStep] = ()
-        self._next_step = 0
+        self._pending: list[_ReadyStep] = []
         self._checklists: Sequence[OpenChecklist] = ()
-        self._time_limit = DEFAULT_TIME_LIMIT
-        self._count = 0
+        self._deadline = inf
+        self._every_step = True
+        self._airborne_route = False
+        self._approaching = False
+        self._bank = 0.0
+        self._wanted_path = 0.0
+        self._begun = False
+        self._countdown = 1  # pilot steps until the outer loops turn
+        self._alert = False
+        self._commands = self._settings
         self._modes: dict[str, str] = {}
         self._state: State | None = None
         self._rename_modes()
@@ -92,14 +103,14 @@ class Pilot:
     @property
     def targets(self) -> Mapping[str, float]:
         """What the pilot aims at, SI; NaN where nothing is aimed at."""
-        airborne = self._route_active() and self._state is not None
+        airborne = self._airborne_route
         return {
             "cas": self.target_cas if self.speed_mode.sub_mode != "OFF" else nan,
             "level": self.route.leg.level.altitude if airborne else nan,
-            "level_error": self.route.level_error(self._state) if airborne and self._state else nan,
+            "level_error": self.level_error if airborne else nan,
             "cross_track": self.route.guidance.cross_track if airborne else nan,
-            "localizer_dots": self.route.localizer.dots if self._on_approach() else nan,
-            "glide_slope_dots": self.route.glide_slope.dots if self._on_approach() else nan,
+            "localizer_dots": self.route.localizer.dots if self._approaching else nan,
+            "glide_slope_dots": self.route.glide_slope.dots if self._approaching else nan,
             "distance_to_go": self.route.distance_to_go if airborne else nan,
         }
 
@@ -108,7 +119,7 @@ class Pilot:
         """For each way out of the phase, the checklist items that are still open."""
         if self._state is None:
             return ()
-        return [(checklist.to, checklist.waiting(self, self._state)) for checklist in self._checklists]
+        return [(checklist.to, checklist.waiting(self._state)) for checklist in self._checklists]
 
     def act(self, state: State) -> Commands:
         """Decide, from the aircraft's state, what to command now.
@@ -116,29 +127,52 @@ class Pilot:
         Raises StuckError when a phase lasts too long, OverrunError when the runway has been left.
         """
         self._state = state
-        if self._count == 0:
-            self._enter(START, state, "start of the mission")
-        self._navigate(state)
-        self._count += 1
+        self._countdown -= 1
+        if self._countdown > 0 and not self._alert:
+            commands = self._commands
+            pitch = self._pitch(state)
+            if pitch != commands.pitch:
+                commands = self._commands = Commands(commands.throttle, pitch, *commands[2:])
+            return commands
+        return self._act_fully(state)
+
+    def _act_fully(self, state: State) -> Commands:
+        outer = self._countdown <= 0
+        if outer:
+            if not self._begun:
+                self._begun = True
+                self._enter(START, state, "start of the mission")
+            self._navigate(state)
+            self.level_error = self.route.level_error(state)
         for checklist in self._checklists:
-            if checklist.complete(self, state):
+            if checklist.complete(state):
                 self._proceed(checklist, state)
                 break
         else:
-            if state.time - self.phase_begin > self._time_limit:
+            if state.time > self._deadline:
                 self._give_up(state)
-        while self._next_step < len(self._steps) and self._ready(self._steps[self._next_step], state):
-            ready = self._steps[self._next_step].step
-            self._next_step += 1
-            self.carry_out(ready, state)
-        return self._control(state)
+        while self._pending and all(entry.holds(state) for entry in self._pending[0].when):
+            self.carry_out(self._pending.pop(0).step, state)
+            self._watch()
+        if outer:
+            self._countdown = 1 if self._every_step else OUTER_PERIOD
+            self._turn_outer_loops(state)
+        self._commands = self._control(state)
+        return self._commands
+
+    def _watch(self) -> None:
+        """Note whether anything waited for changes faster than the outer loops turn."""
+        waited = [entry for checklist in self._checklists for entry in checklist.items]
+        if self._pending:
+            waited.extend(self._pending[0].when)
+        self._alert = any(entry.condition.quantity in FAST for entry in waited)
 
     # What conditions measure.
 
     def level_captured(self, state: State) -> bool:
         """Whether the wanted level is near enough to round out towards it."""
         reach = abs(state.vertical_speed) * self.manual.gains["level-time-constant"]
-        return abs(self.route.level_error(state)) <= max(reach, 30.0)
+        return abs(self.level_error) <= max(reach, LEVEL_REACHED)
 
     def runway_offset(self, state: State) -> tuple[float, float]:
         """Return (metres past the threshold, metres right of the centreline) of the runway in use."""
@@ -163,9 +197,6 @@ class Pilot:
             self._select(action, state)
         words = " ".join(f"{key}={value}" for key, value in action.items())
         self._note("procedure", step.name, words)
-
-    def _ready(self, ready: _ReadyStep, state: State) -> bool:
-        return all(condition.holds(self, state) for condition in ready.when)
 
     def _set(self, name: str, to: str, state: State) -> None:
         if name == "thrust":
@@ -241,7 +272,7 @@ class Pilot:
 
     def _proceed(self, checklist: OpenChecklist, state: State) -> None:
         for entry in checklist.items:
-            reason = f"{entry.achieved(self, state)}, {entry.wanted(state)}"
+            reason = f"{entry.achieved(state)}, {entry.wanted(state)}"
             self._note("checklist", entry.condition.name, reason)
         self._graph.enter(checklist.to)
         names = ", ".join(entry.condition.name for entry in checklist.items)
@@ -256,15 +287,19 @@ class Pilot:
         if phase.startswith("TXY"):
             self._plan_taxi(phase, state)
         plan = self.manual.phases.get(phase)
-        self._steps = ()
+        self._pending = []
         self._checklists = ()
-        self._next_step = 0
-        self._time_limit = self.manual.gains.get(f"time-limit {phase}", DEFAULT_TIME_LIMIT)
+        self._deadline = state.time + self.manual.gains.get(f"time-limit {phase}", DEFAULT_TIME_LIMIT)
+        self._every_step = not phase.startswith(("DEP", "ENR", "APP.intermediate"))
+        self._airborne_route = phase.startswith(("DEP", "ENR", "M/A", "APP"))
+        self._approaching = phase.startswith(("APP", "LDG"))
+        self.level_error = self.route.level_error(state)
         if plan is not None:
-            self._steps = [
+            self._pending = [
                 _ReadyStep(step, tuple(item(when, self, state.mass) for when in step.when)) for step in plan.steps
             ]
             self._checklists = [prepared(checklist, self, state.mass) for checklist in plan.checklists]
+        self._watch()
 
     def _use_runway(self, runway: Runway) -> None:
         self._runway = runway
@@ -286,16 +321,16 @@ class Pilot:
 
     def _give_up(self, state: State) -> None:
         # Of several ways out, the one with the fewest open items is the one the flight was on.
-        ways = [checklist.waiting(self, state) for checklist in self._checklists]
+        ways = [checklist.waiting(state) for checklist in self._checklists]
         open_items = min(ways, key=len) if ways else []
         first = open_items[0] if open_items else None
         raise StuckError(
-            f"not over after {self._time_limit:.0f} s",
+            f"not over after {state.time - self.phase_begin:.0f} s",
             time=state.time,
             phase=self.phase,
             waiting=first.condition.name if first else "",
             required=first.wanted(state) if first else "",
-            achieved=first.achieved(self, state) if first else "",
+            achieved=first.achieved(state) if first else "",
             knob=f"{first.condition.file}:{first.condition.line} states the item; change it, the mass or the thrust"
             if first
             else "",
@@ -309,60 +344,60 @@ class Pilot:
 
     # Flying.
 
-    def _route_active(self) -> bool:
-        return self.phase.startswith(("DEP", "ENR", "M/A", "APP"))
-
-    def _on_approach(self) -> bool:
-        return self.phase.startswith(("APP", "LDG"))
-
     def _navigate(self, state: State) -> None:
-        if self._count % ROUTE_PERIOD == 0:
-            if self._on_approach():
+        if self._approaching:
+            self.route.update_approach(state)
+        elif self._airborne_route:
+            if self.route.waypoints_remaining:
+                self.route.update(state)
+            else:
                 self.route.update_approach(state)
-            elif self._route_active():
-                if self.route.waypoints_remaining:
-                    self.route.update(state)
-                else:
-                    self.route.update_approach(state)
+
+    def _pitch(self, state: State) -> float:
+        route = self.route
+        return self.vertical.update(
+            state, self.level_error, route.glide_slope, route.distance_to_threshold, self._wanted_path, self.step
+        )
 
     def _control(self, state: State) -> Commands:
-        speed, vertical, dt = self.speed_mode, self.vertical, self.step
-        words = self._speed_words
-        self.target_cas = self.route.target_cas if words == "leg-speed" else self._speed_value
-        bank = self.horizontal.update(state, self.route.guidance)
-        path = speed.path(state, self.target_cas) if speed.sub_mode == "PITCH" else 0.0
-        level_error = self.route.level_error(state)
-        pitch = vertical.update(
-            state, level_error, self.route.glide_slope, self.route.distance_to_threshold, path, dt
-        )
-        settings = self._settings
+        pitch = self._pitch(state)
+        lever, settings = self.speed_mode.lever, self._settings
         brake, wheel, rudder, coordinate = settings.brake, 0.0, settings.rudder, 0.0
-        taxiing = speed.sub_mode == "THR" and words == "taxi"
-        if taxiing:
+        if self._taxiing:
             wheel, lever, brake = self._taxi_along(state)
-        else:
-            lever = speed.update(state, self.target_cas, vertical.path_error(state), dt)
-        if self.controls["steering"] == "CONTROLLER" and not taxiing:
+        elif self._steering:
             wheel, rudder = self._along_runway(state)
-        elif self.controls["rudder"] == "CONTROLLER":
+        elif self._coordinated:
             coordinate = 1.0
         return Commands(
-            throttle=lever,
-            pitch_hold=float(self.controls["elevator"] == "CONTROLLER"),
-            pitch=pitch,
-            elevator=settings.elevator,
-            bank_hold=float(self.controls["aileron"] == "CONTROLLER"),
-            bank=bank,
-            aileron=settings.aileron,
-            coordinate=coordinate,
-            rudder=rudder,
-            steer=wheel,
-            flap=settings.flap,
-            gear=settings.gear,
-            speedbrake=settings.speedbrake,
-            spoiler=settings.spoiler,
-            brake=brake,
+            lever,
+            pitch,
+            self._bank,
+            rudder,
+            wheel,
+            brake,
+            self._pitch_hold,
+            settings.elevator,
+            self._bank_hold,
+            settings.aileron,
+            coordinate,
+            settings.flap,
+            settings.gear,
+            settings.speedbrake,
+            settings.spoiler,
         )
+
+    def _turn_outer_loops(self, state: State) -> None:
+        speed = self.speed_mode
+        dt = self.step if self._every_step else self.step * OUTER_PERIOD
+        words = self._speed_words
+        self.target_cas = self.route.target_cas if words == "leg-speed" else self._speed_value
+        self._bank = round(self.horizontal.update(state, self.route.guidance), DIGITS)
+        speed.observe(state, dt)
+        if speed.sub_mode == "PITCH":
+            self._wanted_path = speed.path(state, self.target_cas)
+        elif speed.sub_mode == "THR" and not self._taxiing:
+            speed.update(state, self.target_cas, self.vertical.path_error(state), dt)
 
     def _along_runway(self, state: State) -> tuple[float, float]:
         along, across = self._centreline.offset(state)
@@ -401,6 +436,11 @@ class Pilot:
         return wheel, self.speed_mode.lever, self._braking
 
     def _rename_modes(self) -> None:
+        self._taxiing = self.speed_mode.sub_mode == "THR" and self._speed_words == "taxi"
+        self._steering = self.controls["steering"] == "CONTROLLER"
+        self._coordinated = self.controls["rudder"] == "CONTROLLER"
+        self._pitch_hold = float(self.controls["elevator"] == "CONTROLLER")
+        self._bank_hold = float(self.controls["aileron"] == "CONTROLLER")
         direct = [name for name, owner in self.controls.items() if owner == "DIRECT"]
         vertical = self.vertical
         path = "V/S" if vertical.vertical_speed is not None else vertical.angle

@@ -1,7 +1,8 @@
 """A JSBSim aircraft as a plant: takes Commands, flies a pilot step of frames, hands back a State."""
 
-from collections.abc import Callable
-from math import degrees, inf
+from collections.abc import Callable, Iterable
+from functools import partial
+from math import degrees, inf, nan
 from operator import call, mul
 from pathlib import Path
 from typing import NamedTuple
@@ -9,8 +10,9 @@ from typing import NamedTuple
 import jsbsim
 
 from harness.errors import GroundImpactError, InputError, NumericalError
+from harness.plant.messages import Messages
 from harness.plant.properties import COMMANDS, PROBES, PSF, STATE, Binding
-from harness.state import Commands, State
+from harness.state import FAST_FIELDS, Commands, State
 from harness.units import FT, LB
 
 INTEGRATORS = {
@@ -24,6 +26,8 @@ INTEGRATORS = {
 COMMAND_DIGITS = 5
 """Commands are rounded to this many digits before they are written, so that a recorded flight can be replayed exactly."""
 TERRAIN_PERIOD = 24  # pilot steps between two looks at the terrain below
+SLOW_PERIOD = 3  # pilot steps between two readings of all of State, well above the ground
+NEAR_GROUND = 300.0  # m; below it all of State is read at every step
 TERRAIN_HEIGHT = 60.0  # m; nearer the ground its elevation stays what it was
 IMPACT_SINK = 5.0  # m/s at the wheels: about twice the limit descent velocity of CS 25.473 (3.05 m/s)
 STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground trim finds the true one
@@ -92,16 +96,21 @@ class JSBSimPlant:
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air)
         self._getters = [self._getter(binding) for binding in STATE]
+        self._fast_getters = self._getters[:_SLOW]
+        self._values: list[float] = []
+        self._near_ground = True
         self._factors = [binding.factor for binding in STATE]
         self._probes = [self._getter(binding) for binding in PROBES]
         self._probe_factors = [binding.factor for binding in PROBES]
         self._setters = [[self._setter(name) for name in COMMANDS[field]] for field in Commands._fields]
         self._set_terrain = self._setter("position/terrain-elevation-asl-ft")
-        self._written: Commands = Commands()
+        self._written = Commands(*[nan] * len(Commands._fields))
         self._standing_height = self._read("position/h-agl-ft") * FT
+        self._run = self._fdm.run
         self._steps = 0
+        self._terrain_seen = 0
         self._sink = 0.0
-        self._write_all(self._written)
+        self._write(Commands())
 
     @property
     def frames(self) -> int:
@@ -115,8 +124,9 @@ class JSBSimPlant:
 
     def state(self) -> State:
         """The aircraft as it is now."""
-        values = State._make(map(mul, map(call, self._getters), self._factors))
-        return values._replace(height=values.height - self._standing_height)
+        self._values = list(map(mul, map(call, self._getters), self._factors))
+        self._values[_HEIGHT] -= self._standing_height
+        return new_state(self._values)
 
     def probe(self) -> tuple[float, ...]:
         """What a recorder wants besides State, in the order of `properties.PROBES`, SI."""
@@ -127,43 +137,47 @@ class JSBSimPlant:
 
         Raises NumericalError when the state is no longer finite, GroundImpactError when the aircraft hit the ground.
         """
-        written = self._written
-        if commands != written:
-            for setters, new, old in zip(self._setters, commands, written, strict=True):
-                if new != old:
-                    value = round(new, COMMAND_DIGITS)
-                    for setter in setters:
-                        setter(value)
-            self._written = commands
-        run = self._fdm.run
+        if commands is not self._written:
+            self._write(commands)
+        run = self._run
         for _ in self._frames:
             run()
         self._steps += 1
-        values = list(map(mul, map(call, self._getters), self._factors))
+        if self._near_ground or not self._steps % SLOW_PERIOD:
+            return self._look_around()
+        values = self._values
+        values[:_SLOW] = map(mul, map(call, self._fast_getters), self._factors)
         values[_HEIGHT] -= self._standing_height
-        state = State._make(values)
-        if not -inf < sum(values) < inf:
-            raise NumericalError(
-                "the state of the aircraft is no longer finite",
-                time=self._steps * self._step,
+        if not -inf < sum(values[:_SLOW]) < inf:
+            raise self._not_finite()
+        return new_state(values)
+
+    def _look_around(self) -> State:
+        """Read all of State, and see whether it is still the state of an aircraft."""
+        state = self.state()
+        if not -inf < sum(state) < inf:
+            raise self._not_finite()
+        sink, self._sink = self._sink, -state.vertical_speed
+        self._near_ground = state.height < NEAR_GROUND
+        if (state.main_on_ground and sink > IMPACT_SINK) or state.height < BELOW_GROUND:
+            raise GroundImpactError(
+                f"hit the ground at {sink:.1f} m/s",
+                time=state.time,
                 phase="in the simulator",
-                knob="look at the last rows of the time history; a mass, inertia or wind out of all bounds does this",
+                knob="look at the speeds and levels before this moment in the time history",
             )
-        if state.main_on_ground or state.height < BELOW_GROUND:
-            self._check_ground(state)
-        self._sink = state.vertical_speed
-        if self._steps % TERRAIN_PERIOD == 0 and state.height > TERRAIN_HEIGHT:
+        if self._steps - self._terrain_seen >= TERRAIN_PERIOD and state.height > TERRAIN_HEIGHT:
+            self._terrain_seen = self._steps
             self._set_terrain(self._terrain(state.latitude, state.longitude) / FT)
         return state
 
-    def _check_ground(self, state: State) -> None:
-        if -self._sink > IMPACT_SINK or state.height < BELOW_GROUND:
-            raise GroundImpactError(
-                f"hit the ground at {-self._sink:.1f} m/s",
-                time=state.time,
-                phase="in the air",
-                knob="look at the speeds and levels before this moment in the time history",
-            )
+    def _not_finite(self) -> NumericalError:
+        return NumericalError(
+            "the state of the aircraft is no longer finite",
+            time=self._steps * self._step,
+            phase="in the simulator",
+            knob="look at the last rows of the time history; a mass, inertia or wind out of all bounds does this",
+        )
 
     def _initialise(self, placement: Placement, loads: Loads, air: Air) -> None:
         put = self._put
@@ -193,10 +207,13 @@ class JSBSimPlant:
         for i, contents in enumerate(filled(tanks, loads.fuel)):
             self._put(f"propulsion/tank[{i}]/contents-lbs", contents / LB)
 
-    def _write_all(self, commands: Commands) -> None:
-        for setters, value in zip(self._setters, commands, strict=True):
-            for setter in setters:
-                setter(value)
+    def _write(self, commands: Commands) -> None:
+        for setters, new, old in zip(self._setters, commands, self._written, strict=True):
+            if new != old:
+                value = round(new, COMMAND_DIGITS)
+                for setter in setters:
+                    setter(value)
+        self._written = commands
 
     def _read(self, name: str) -> float:
         return self._node(name).get_double_value()
@@ -224,6 +241,9 @@ class JSBSimPlant:
 
 
 _HEIGHT = State._fields.index("height")
+_SLOW = len(FAST_FIELDS)
+new_state: Callable[[Iterable[float]], State] = partial(tuple.__new__, State)
+"""A State from its values in order, without the length check of `State._make`, which costs more than the rest."""
 
 
 def filled(tanks: list[Tank], fuel: float) -> list[float]:
@@ -246,10 +266,17 @@ def filled(tanks: list[Tank], fuel: float) -> list[float]:
 
 
 def _load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
+    messages = Messages()
+    jsbsim.set_logger(messages)
     fdm = jsbsim.FGFDMExec(str(root))
     fdm.set_debug_level(0)
     fdm.set_dt(1.0 / rate)  # before the model: filters and actuators keep the step they were loaded with
-    if not fdm.load_model(aircraft):
-        raise InputError(f"JSBSim could not load the aircraft {aircraft} from {root}")
+    try:
+        loaded = fdm.load_model(aircraft)
+    except jsbsim.BaseError as error:
+        raise InputError(f"JSBSim refuses the aircraft {aircraft}: {error}") from error
+    if not loaded:
+        said = "\n    ".join(messages.serious)
+        raise InputError(f"JSBSim could not load the aircraft {aircraft}", file=root, remedy=said)
     fdm.disable_output()
     return fdm

@@ -4,6 +4,7 @@ import io
 import json
 import time
 from pathlib import Path
+from types import MappingProxyType
 
 import pytest
 from conftest import Command
@@ -12,6 +13,8 @@ from harness import cli, resources
 from harness.console import Console, clock
 from harness.errors import InputError
 from harness.log import Event
+from harness.state import Commands, State
+from harness.units import KT
 
 
 def test_help_comes_at_once(harness: Command) -> None:
@@ -59,7 +62,7 @@ def test_wrong_usage_is_one_message_that_teaches(
 
 def test_a_misspelt_mission_is_recognised(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["check", "colonge-munich"]) == 2
-    assert "did you mean cologne-munich?" in capsys.readouterr().err
+    assert "did you mean cologne-munich" in capsys.readouterr().err
 
 
 def test_a_refusal_as_json_is_alone_on_standard_output(capsys: pytest.CaptureFixture[str]) -> None:
@@ -152,3 +155,31 @@ def test_where_nobody_looks_the_console_writes_plain_lines() -> None:
     console.close()
     assert stream.getvalue() == "1:02:05  phase     ENR.CRS  (level captured)\n"
     assert clock(59.9) == "0:00:59"
+
+
+class Terminal(io.StringIO):
+    """A stream that says it is a terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+class Pilot:
+    """Answers the console's questions."""
+
+    phase = "ENR.CRS"
+    modes = MappingProxyType({"CTRL": "direct: steering", "SPD": "THR", "HP": "NAV route", "VP": "NAV level"})
+    targets = MappingProxyType({"distance_to_go": 18520.0})
+
+
+def test_on_a_terminal_one_line_lives(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    stream = Terminal()
+    console = Console(stream)
+    state = State(**dict.fromkeys(State._fields, 0.0) | {"time": 3725.0, "altitude": 3048.0, "cas": 100 * KT})
+    console.see(state, Commands(), Pilot())
+    line = stream.getvalue()
+    assert line.startswith("\r1:02:05 ENR.CRS          10000 ft 100 kt  10.0 NM to go")
+    assert len(line) == 80
+    assert "THR | NAV" in line
+    assert "\n" not in line

@@ -4,10 +4,10 @@ from pathlib import Path
 
 from matplotlib import style
 
-from harness.analysis.plots.look import RC, save
 from harness.analysis.plots.annunciator import modes
-from harness.analysis.plots.timeline import profile
 from harness.analysis.plots.chart import route_map
+from harness.analysis.plots.look import RC, save
+from harness.analysis.plots.timeline import profile
 from harness.log import Run
 from harness.mission.reader import read_mission
 
@@ -19,8 +19,8 @@ FEWEST_ROWS = 3
 def draw_all(run: Run, folder: Path) -> tuple[Path, ...]:
     """Draw route_map.png, profile.png and modes.png into the folder of the run, and return their paths.
 
-    The route is read from the folder's mission.xml. A flight that ended before there is anything to draw gets no
-    pictures.
+    The route is read from the folder's mission.xml. A flight that ended before there is anything to draw gets
+    no pictures.
     """
     if len(run.history["time"]) < FEWEST_ROWS:
         return ()

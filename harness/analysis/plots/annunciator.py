@@ -17,9 +17,9 @@ LANE = 0.38  # inches
 FONT = 7.5  # points
 LETTER = 0.62 * FONT / 72  # mean width of a letter, inches
 THINNEST = 0.012  # inches; anything shorter joins what comes before it
-LONG = 20 * MIN  # flights longer than this get a closer look at both ends
-DEPARTURE = (-1.0 * MIN, 5.0 * MIN)  # around lift-off
-ARRIVAL = (-6.0 * MIN, 1.5 * MIN)  # around touchdown
+LONG = 8 * MIN  # flights longer than this get a closer look at both ends
+DEPARTURE = (-1.0 * MIN, 3.0 * MIN)  # around lift-off
+ARRIVAL = (-3.0 * MIN, 1.0 * MIN)  # around touchdown
 LANES = ("CTRL", "INN", "SPD", "HP", "VP")
 SHADES = (
     "#56b4e9",
@@ -44,6 +44,14 @@ class Lane(NamedTuple):
     colours: dict[str, str]
 
 
+class Window(NamedTuple):
+    """A part of the flight: its title, first and last second."""
+
+    title: str
+    begin: float
+    end: float
+
+
 def modes(run: Run) -> Figure:
     """Draw a strip for the phase and for each super-mode; long flights also close up on both ends."""
     time = run.history["time"]
@@ -54,9 +62,9 @@ def modes(run: Run) -> Figure:
     figure = Figure(figsize=(WIDTH, rows * (len(lanes) * LANE + 0.75) + 0.9), layout="constrained")
     grid = figure.add_gridspec(rows, max(len(windows), 1))
     whole = figure.add_subplot(grid[0, :])
-    _strips(whole, lanes, begin, end, WIDTH - 1.2, "whole flight")
-    for column, (title, first, last) in enumerate(windows):
-        _strips(figure.add_subplot(grid[1, column]), lanes, first, last, WIDTH / len(windows) - 1.0, title)
+    _strips(whole, lanes, Window("whole flight", begin, end), WIDTH - 1.2)
+    for column, window in enumerate(windows):
+        _strips(figure.add_subplot(grid[1, column]), lanes, window, WIDTH / len(windows) - 1.0)
     figure.suptitle(f"{run.summary.get('mission', '')}: flight modes", x=0.01, ha="left", fontsize=11)
     _legend(figure, lanes[1:])
     return figure
@@ -75,33 +83,34 @@ def _lane(run: Run, name: str) -> Lane:
     return Lane(name, stretches, {word: colours.get(word, OFF) for word in words})
 
 
-def _closer(run: Run, begin: float, end: float) -> list[tuple[str, float, float]]:
-    """Return title, first and last second of the close-ups: as many of the two as were flown."""
+def _closer(run: Run, begin: float, end: float) -> list[Window]:
+    """Return the close-ups: as many of the two as were flown."""
     windows = []
-    for name, moment, around in (
+    for title, moment, around in (
         ("departure", "lift_off_s", DEPARTURE),
         ("arrival", "touchdown_s", ARRIVAL),
     ):
         at = run.summary.get(moment)
         if at is not None:
-            windows.append((name, max(begin, at + around[0]), min(end, at + around[1])))
+            windows.append(Window(title, max(begin, at + around[0]), min(end, at + around[1])))
     return windows
 
 
-def _strips(axes: Axes, lanes: Sequence[Lane], begin: float, end: float, width: float, title: str) -> None:
-    """Draw every lane between two times; `width` is roughly that of the axes in inches."""
-    inch = (end - begin) / width  # seconds
+def _strips(axes: Axes, lanes: Sequence[Lane], window: Window, width: float) -> None:
+    """Draw every lane in a window of time; `width` is roughly that of the axes in inches."""
+    inch = (window.end - window.begin) / width  # seconds
     for row, lane in enumerate(lanes):
-        for span in joined(lane.stretches, begin, end, THINNEST * inch):
-            _box(axes, span, row, lane.colours[span.word], (span.end - span.begin) / inch, end)
-    axes.set_title(title, loc="left", fontsize=9)
-    axes.set(xlim=(begin / MIN, end / MIN), ylim=(len(lanes) - 0.5, -0.5), xlabel="time, min")
+        for span in joined(lane.stretches, window.begin, window.end, THINNEST * inch):
+            _box(axes, row, span, lane.colours[span.word], letters=(span.end - span.begin) / inch / LETTER)
+    axes.set_title(window.title, loc="left", fontsize=9)
+    axes.set(xlim=(window.begin / MIN, window.end / MIN), ylim=(len(lanes) - 0.5, -0.5), xlabel="time, min")
     axes.set_yticks(range(len(lanes)), [lane.name for lane in lanes])
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
 
 
-def _box(axes: Axes, span: Span, row: int, colour: str, width: float, end: float) -> None:
+def _box(axes: Axes, row: int, span: Span, colour: str, *, letters: float) -> None:
+    """Draw one stretch with as much of its word as `letters` of width hold."""
     axes.broken_barh(
         [(span.begin / MIN, (span.end - span.begin) / MIN)],
         (row - 0.42, 0.84),
@@ -109,25 +118,22 @@ def _box(axes: Axes, span: Span, row: int, colour: str, width: float, end: float
         edgecolor="white",
         linewidth=0.5,
     )
-    text = fitting(span.word, width / LETTER)
-    if text:
-        on_dark = row == 0
-        axes.text(
-            (span.begin + min(span.end, end)) / 2 / MIN,
-            row,
-            text,
-            ha="center",
-            va="center",
-            fontsize=FONT,
-            color="white" if on_dark else INK,
-            weight="bold" if on_dark else "normal",
-            clip_on=True,
-        )
+    is_phase = row == 0
+    axes.text(
+        (span.begin + span.end) / 2 / MIN,
+        row,
+        fitting(span.word, letters),
+        ha="center",
+        va="center",
+        fontsize=FONT,
+        color="white" if is_phase else INK,
+        weight="bold" if is_phase else "normal",
+    )
 
 
 def fitting(words: str, letters: float) -> str:
     """Return as much of a mode's name as fits into a width: all of it, its first word, or nothing."""
-    for text in (words, words.split(" ")[0]):
+    for text in (words, words.partition(" ")[0].rstrip(":")):
         if len(text) <= letters:
             return text
     return ""

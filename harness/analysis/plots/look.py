@@ -4,10 +4,12 @@ from pathlib import Path
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 DPI = 150
 INK = "#222222"
 FAINT = "#b8b8b8"
+HALO = [withStroke(linewidth=2.2, foreground="white")]
 
 RC: dict[str, object] = {
     "font.size": 9.0,
@@ -24,7 +26,8 @@ RC: dict[str, object] = {
     "svg.hashsalt": "harness",
 }
 
-# Told apart by most colour-blind readers. Source: M. Okabe and K. Ito, Color universal design (2008), extended.
+# Told apart by most colour-blind readers. Source: M. Okabe and K. Ito, Color universal design (2008); more
+# colours were added.
 PHASES: dict[str, tuple[str, str]] = {
     "TXY": ("taxi", "#8c8c8c"),
     "T/O": ("take-off", "#d55e00"),

@@ -1,6 +1,7 @@
 """A flight against time: altitude, speed, attitude, thrust and fuel (AIAA 2010-7777, Fig. 13)."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,12 +11,12 @@ from numpy.typing import NDArray
 from harness.analysis.plots.look import INK, PHASES, phase_colour, phase_group, plain_grid
 from harness.analysis.spans import Span, spans
 from harness.log import Passage, Run
-from harness.units import DEG, FT, KT, MIN, TONNE
+from harness.units import DEG, FT, KN, KT, MIN, TONNE
 
 SIZE = (11.0, 11.5)  # inches
-BLUE, ORANGE, GREEN = "#0072b2", "#d55e00", "#007a5a"
-TARGET = {"color": INK, "linewidth": 0.9, "dashes": (4, 2), "zorder": 2.1}
-NAMES_ROOM = 0.13  # of the altitude scale, left free above the lines for the names of the waypoints
+BLUE, ORANGE = "#0072b2", "#d55e00"
+TARGET: dict[str, Any] = {"color": INK, "linewidth": 0.9, "dashes": (4, 2), "zorder": 2.1}
+LETTER = 0.036  # of the altitude scale: room above the lines for each letter of a waypoint's name
 CLOSEST_LABELS = 0.017  # of the time axis, between two labels of phases
 
 
@@ -29,13 +30,16 @@ def profile(run: Run) -> Figure:
     altitude.set_xlim(minutes[0], minutes[-1])
 
     altitude.plot(minutes, history["pressure_altitude"] / FT, color=BLUE, label="pressure altitude")
-    _target(altitude, run, "target_altitude", FT, "target")
+    on_level = np.isin(history["phase"], ("APP.final", "LDG.flare", "LDG.roll-out"), invert=True)
+    level = np.where(on_level, history["pressure_altitude"] + history["target_level_error"], np.nan)
+    altitude.plot(minutes, level / FT, label="level to fly", **TARGET)
     altitude.set_ylabel("altitude, ft")
     low, high = altitude.get_ylim()
-    altitude.set_ylim(low, high + NAMES_ROOM * (high - low))
+    letters = max((len(passage.name) for passage in run.passages), default=0)
+    altitude.set_ylim(low, high + min(0.05 + letters * LETTER, 0.4) * (high - low))
 
     speed.plot(minutes, history["cas"] / KT, color=BLUE, label="CAS")
-    _target(speed, run, "target_cas", KT, "target CAS")
+    speed.plot(minutes, history["target_cas"] / KT, label="CAS to fly", **TARGET)
     mach = _beside(speed, "Mach number", ORANGE)
     mach.plot(minutes, history["mach"], color=ORANGE, linewidth=1.0, label="Mach")
     _floor(mach, history["mach"])
@@ -46,8 +50,10 @@ def profile(run: Run) -> Figure:
     attitude.plot(minutes, history["pitch"] / DEG, color=BLUE, label="pitch")
     attitude.set_ylabel("attitude, deg")
 
-    thrust.plot(minutes, history["command_throttle"] * 100, color=GREEN, label="thrust lever")
-    thrust.set_ylabel("thrust lever, %")
+    thrust.plot(minutes, history["thrust"] / KN, color=BLUE, label="thrust")
+    thrust.set_ylabel("thrust, kN")
+    lever = _beside(thrust, "thrust lever, %", ORANGE)
+    lever.plot(minutes, history["command_throttle"] * 100, color=ORANGE, linewidth=1.0, label="thrust lever")
 
     fuel.plot(minutes, history["fuel"] / TONNE, color=BLUE, label="fuel on board")
     fuel.set_ylabel("fuel, t")
@@ -68,12 +74,6 @@ def profile(run: Run) -> Figure:
     title = f"{run.summary.get('mission', '')}: altitude, speed, attitude, thrust and fuel"
     figure.suptitle(title, x=0.01, ha="left", fontsize=11)
     return figure
-
-
-def _target(axes: Axes, run: Run, column: str, unit: float, label: str) -> None:
-    """Draw what is aimed at; not aimed at is NaN, and leaves a gap."""
-    if column in run.history:
-        axes.plot(run.history["time"] / MIN, run.history[column] / unit, label=label, **TARGET)
 
 
 def _beside(axes: Axes, label: str, colour: str) -> Axes:
@@ -98,7 +98,7 @@ def _bands(axes: Axes, stretches: list[Span], passages: Sequence[Passage]) -> No
 
 
 def _legend(axes: Axes, *, inside: bool) -> None:
-    """Put one row of labels for both scales on top of the panel, or inside where the phases are named on top."""
+    """Put one row of labels for both scales on top of the panel; inside where the phases are named on top."""
     twins = [twin for twin in axes.figure.axes if twin is not axes and twin.bbox.bounds == axes.bbox.bounds]
     handles = [handle for each in (axes, *twins) for handle in each.get_legend_handles_labels()[0]]
     top = twins[-1] if twins else axes
@@ -154,7 +154,7 @@ def _waypoint_names(axes: Axes, passages: Sequence[Passage]) -> None:
 def spread(wanted: Sequence[float], gap: float) -> list[float]:
     """Return positions at least `gap` apart, in the order of `wanted` (ascending) and close to it.
 
-    Neighbours that are too close form a block that sits at the mean of what its members want: the least-squares
+    Neighbours too close form a block that sits at the mean of what its members want: the least-squares
     solution (pool adjacent violators).
     """
     blocks: list[tuple[float, int]] = []  # mean of (wanted - index * gap), members

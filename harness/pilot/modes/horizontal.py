@@ -17,11 +17,12 @@ class HorizontalMode:
         self.bank = 0.0  # wanted by ATT
         self.track = 0.0  # wanted by PATH, true
         self._most_bank = gains["bank-limit"]
-        self._approach_bank = gains["approach-bank-limit"]
-        self._align_bank = gains["align-bank-limit"]
         self._turn_time = gains["turn-time-constant"]
-        self._line_time = gains["cross-track-time-constant"]
-        self._localizer_time = gains["localizer-time-constant"]
+        self._laws = {  # time to close a cross-track error, time to close a track error, most bank
+            "route": (gains["cross-track-time-constant"], self._turn_time, self._most_bank),
+            "localizer": (gains["localizer-time-constant"], self._turn_time, gains["approach-bank-limit"]),
+            "align": (gains["align-time-constant"], gains["align-turn-time-constant"], gains["align-bank-limit"]),
+        }
         self._steepest_intercept = gains["intercept-angle-limit"]
 
     def select(self, sub_mode: str, state: State) -> None:
@@ -34,28 +35,20 @@ class HorizontalMode:
             return self.bank
         speed = hypot(state.velocity_north, state.velocity_east)
         if self.sub_mode == "PATH":
-            return self._bank(wrap(self.track - _track(state, speed)), speed, self._most_bank)
+            return _bank(wrap(self.track - _track(state, speed)), speed, self._turn_time, self._most_bank)
         if self.guidance in ("runway", "taxi"):
             return 0.0
         if guidance.homing:
-            return self._bank(guidance.bearing_error, speed, self._most_bank)
-        near = self.guidance != "route"
-        limit = (
-            self._most_bank
-            if not near
-            else self._align_bank
-            if self.guidance == "align"
-            else self._approach_bank
-        )
-        reach = max(speed, 30.0) * (self._localizer_time if near else self._line_time)
-        intercept = clamp(
-            atan(guidance.cross_track / reach), -self._steepest_intercept, self._steepest_intercept
-        )
-        return self._bank(wrap(guidance.course - intercept - _track(state, speed)), speed, limit)
+            return _bank(guidance.bearing_error, speed, self._turn_time, self._most_bank)
+        line_time, turn_time, limit = self._laws[self.guidance]
+        reach = max(speed, 30.0) * line_time
+        intercept = clamp(atan(guidance.cross_track / reach), -self._steepest_intercept, self._steepest_intercept)
+        return _bank(wrap(guidance.course - intercept - _track(state, speed)), speed, turn_time, limit)
 
-    def _bank(self, error: float, speed: float, limit: float) -> float:
-        """The bank that turns a track error away at a rate of error / turn time."""
-        return clamp(atan(speed / GRAVITY * error / self._turn_time), -limit, limit)
+
+def _bank(error: float, speed: float, turn_time: float, limit: float) -> float:
+    """The bank that turns a track error away at a rate of error / turn time."""
+    return clamp(atan(speed / GRAVITY * error / turn_time), -limit, limit)
 
 
 def _track(state: State, speed: float) -> float:

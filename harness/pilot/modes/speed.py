@@ -1,7 +1,5 @@
 """SPD: speed by thrust lever (THR), by flight path (PITCH), or not at all, the lever set by hand (OFF)."""
 
-from math import asin
-
 from harness.numerics import LowPass, clamp
 from harness.state import State
 from harness.world.atmosphere import GRAVITY
@@ -27,8 +25,8 @@ class SpeedMode:
         self._cas_rate = LowPass(gains["speed-rate-filter"])
         self._cas = -1.0
         self._integral = 0.0
-        self._steepest_climb = gains["climb-angle-limit"]
-        self._steepest_descent = -gains["descent-angle-limit"]
+        self._climb = (gains["least-climb-angle"], gains["climb-angle-limit"])
+        self._descent = (-gains["descent-angle-limit"], -gains["least-descent-angle"])
 
     def select(self, sub_mode: str) -> None:
         """Change the sub-mode; THR takes over the lever where it stands."""
@@ -36,30 +34,30 @@ class SpeedMode:
             self._integral = self.lever
         self.sub_mode = sub_mode
 
-    def update(self, state: State, target: float, path_error: float, dt: float) -> float:
-        """Return the lever. `path_error`: climb asked for beyond the present one, rad; the lever supplies it too."""
-        self._observe(state, dt)
-        if self.sub_mode != "THR":
-            return self.lever
-        energy = self._energy_wanted(state, target) + clamp(path_error, -0.05, 0.05)
-        lever = self._integral + self._lever_gain * energy
-        if 0.0 < lever < self.highest_lever or (lever <= 0.0) == (energy > 0.0):
-            self._integral += self._lever_integral * energy * dt
-        self.lever = clamp(lever, 0.0, self.highest_lever)
-        return self.lever
-
-    def path(self, state: State, target: float) -> float:
-        """PITCH: the flight-path angle (rad) that brings the speed to `target` with the thrust there is."""
-        climb = asin(clamp(state.vertical_speed / max(state.tas, 1.0), -1.0, 1.0))
-        wanted = climb - self._energy_wanted(state, target)
-        low, high = (self._steepest_descent, self._steepest_climb)
-        return clamp(wanted, low, high)
-
-    def _observe(self, state: State, dt: float) -> None:
+    def observe(self, state: State, dt: float) -> None:
+        """Keep the rate of change of the airspeed up to date."""
         if self._cas < 0.0:
             self._cas = state.cas
         self._cas_rate.update((state.cas - self._cas) / dt, dt)
         self._cas = state.cas
+
+    def update(self, state: State, target: float, path_error: float, dt: float) -> float:
+        """THR: the lever. `path_error`: climb asked for beyond the present one, rad; the lever supplies it too."""
+        energy = self._energy_wanted(state, target) + clamp(path_error, -0.05, 0.05)
+        lever = self._integral + self._lever_gain * energy
+        if 0.0 < lever < self.highest_lever or (lever <= 0.0) == (energy > 0.0):
+            self._integral += self._lever_integral * energy * dt
+        self.lever = round(clamp(lever, 0.0, self.highest_lever), 4)
+        return self.lever
+
+    def path(self, state: State, target: float) -> float:
+        """PITCH: the flight-path angle (rad) that brings the speed to `target` with the thrust there is.
+
+        It never gives up the climb to gain speed nor the descent to lose it.
+        """
+        path = state.vertical_speed / max(state.tas, 1.0)
+        low, high = self._climb if self.lever > 0.0 else self._descent
+        return clamp(path - self._energy_wanted(state, target), low, high)
 
     def _energy_wanted(self, state: State, target: float) -> float:
         """Acceleration still missing, in g along the path."""

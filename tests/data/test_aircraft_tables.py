@@ -1,0 +1,164 @@
+"""The airframe's XML files have the shape and the figures they claim."""
+
+import itertools
+import math
+import re
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+
+CLEAN, TAKE_OFF, LANDING = range(3)
+
+
+@pytest.fixture(scope="module")
+def aerodynamics(repository: Path) -> ET.Element:
+    return ET.parse(repository / "aircraft/gta/aerodynamics.xml").getroot()
+
+
+def function(root: ET.Element, name: str) -> ET.Element:
+    return next(f for f in root.iter("function") if f.get("name") == name)
+
+
+def rows(table: ET.Element) -> list[list[float]]:
+    lines = (table.findtext("tableData") or "").split("\n")
+    return [[float(word) for word in line.split()] for line in lines if line.strip()]
+
+
+@pytest.fixture(scope="module")
+def lift(aerodynamics: ET.Element) -> list[list[float]]:
+    table = next(function(aerodynamics, "aero/cl-basic").iter("table"))
+    return rows(table)[1:]  # the first row holds the flap positions
+
+
+def interpolate(table: list[list[float]], x: float, column: int = 1) -> float:
+    for low, high in itertools.pairwise(table):
+        if low[0] <= x <= high[0]:
+            return low[column] + (high[column] - low[column]) * (x - low[0]) / (high[0] - low[0])
+    raise AssertionError(x)
+
+
+def test_table_arguments_rise(repository: Path):
+    for path in [*(repository / "aircraft/gta").glob("*.xml"), repository / "systems/gear.xml"]:
+        for table in ET.parse(path).getroot().iter("table"):
+            body = [row for row in rows(table) if len(row) == len(rows(table)[-1])]
+            arguments = [row[0] for row in body]
+            assert arguments == sorted(set(arguments)), path.name
+
+
+@pytest.mark.parametrize("flap", [CLEAN, TAKE_OFF, LANDING])
+def test_lift_rises_to_one_maximum_and_falls_beyond(lift: list[list[float]], flap: int):
+    values = [row[flap + 1] for row in lift if row[0] >= -0.25]
+    peak = values.index(max(values))
+    assert values[:peak] == sorted(values[:peak])
+    assert values[peak:] == sorted(values[peak:], reverse=True)
+
+
+@pytest.mark.parametrize(("flap", "zero", "maximum"), [(0, 0.45, 1.55), (1, 1.00, 2.15), (2, 1.45, 2.50)])
+def test_lift_at_zero_incidence_its_slope_and_maximum_are_the_facts(
+    lift: list[list[float]], flap: int, zero: float, maximum: float
+):
+    column = flap + 1
+    at_zero = interpolate(lift, 0.0, column)
+    slope = (interpolate(lift, math.radians(6), column) - at_zero) / math.radians(6)
+    trim_loss = 0.12  # the up elevator takes this much of the untrimmed maximum
+    assert at_zero == pytest.approx(zero)
+    assert slope == pytest.approx(5.2, rel=0.001)
+    assert maximum < max(row[column] for row in lift) < maximum + trim_loss
+
+
+def test_flaps_add_lift_below_the_stall(lift: list[list[float]]):
+    for row in lift:
+        if -0.1 <= row[0] <= 0.25:
+            assert row[1] < row[2] < row[3]
+
+
+def test_the_alpha_of_warning_lies_below_the_alpha_of_stall(aerodynamics: ET.Element):
+    stall = rows(next(function(aerodynamics, "aero/alpha-stall-margin-rad").iter("table")))
+    warning = rows(next(function(aerodynamics, "aero/stall-warning").iter("table")))
+    protection_margin = 0.06
+    for (_, at_stall), (_, at_warning) in zip(stall, warning, strict=True):
+        assert at_warning < at_stall - protection_margin
+
+
+def test_drag_increments_are_positive_and_rise(aerodynamics: ET.Element):
+    for table in function(aerodynamics, "aero/drag-lbs").iter("table"):
+        values = [row[1] for row in rows(table) if row[0] >= 0]
+        assert min(values) >= 0
+        assert values == sorted(values)
+
+
+def test_wing_and_tail_give_the_static_stability_of_the_facts(aerodynamics: ET.Element):
+    pitch = function(aerodynamics, "aero/pitch-lbsft")
+    wing = rows(next(pitch.iter("table")))[1:]
+    slope = (interpolate(wing, 0.2) - interpolate(wing, 0.0)) / 0.2
+    tail, downwash_slope = 4.24, 0.057 * 5.2
+    assert slope - tail * (1 - downwash_slope) == pytest.approx(-1.5, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("moment", "motion", "sign"),
+    [
+        ("aero/roll-lbsft", "velocities/p-aero-rad_sec", -1),  # damps
+        ("aero/pitch-lbsft", "velocities/q-aero-rad_sec", -1),
+        ("aero/yaw-lbsft", "velocities/r-aero-rad_sec", -1),
+        ("aero/yaw-lbsft", "aero/beta-rad", 1),  # turns into the wind
+        ("aero/side-lbs", "aero/beta-rad", -1),
+        ("aero/pitch-lbsft", "fcs/elevator-pos-rad", -1),  # trailing edge down: nose down
+        ("aero/roll-lbsft", "fcs/aileron-pos-rad", 1),  # right wing down
+        ("aero/yaw-lbsft", "fcs/rudder-pos-rad", -1),  # trailing edge left: nose left
+    ],
+)
+def test_derivatives_have_the_right_sign(aerodynamics: ET.Element, moment: str, motion: str, sign: int):
+    for product in function(aerodynamics, moment).iter("product"):
+        names = [p.text for p in product.findall("property")]
+        numbers = [float(v.text or "") for v in product.findall("value")]
+        if motion in names and len(numbers) == 1:
+            assert math.copysign(1, numbers[0]) == sign
+            return
+    raise AssertionError(f"no term of {motion} in {moment}")
+
+
+def test_wheels_and_structure_are_symmetric(repository: Path):
+    contacts = ET.parse(repository / "aircraft/gta/ground-reactions.xml").getroot().findall("contact")
+    places = [tuple(float(c.findtext(f"location/{axis}") or "") for axis in "xyz") for c in contacts]
+    assert sorted(places) == sorted((x, -y if y else y, z) for x, y, z in places)
+    wheels = [contact.get("type") == "BOGEY" for contact in contacts]
+    assert wheels == [True] * 7 + [False] * 7  # systems/gear.xml counts on the unit numbers
+
+
+def test_tyre_side_force_is_odd_in_slip(repository: Path):
+    for table in ET.parse(repository / "aircraft/gta/ground-reactions.xml").getroot().iter("table"):
+        body = rows(table)
+        assert body == [[-slip, -force] for slip, force in reversed(body)]
+
+
+def test_inertia_follows_from_the_radii_of_gyration(repository: Path):
+    mass = ET.parse(repository / "aircraft/gta/mass-balance.xml").getroot()
+    empty, span, length = 78600.0, 42.357, 45.091
+    radii = {"ixx": 0.322 * span / 2, "iyy": 0.324 * length / 2, "izz": 0.456 * (span + length) / 4}
+    for name, radius in radii.items():
+        assert float(mass.findtext(name) or "") == pytest.approx(empty * radius**2, rel=0.001)
+
+
+def test_payload_is_the_first_point_mass_and_near_the_reference_centre_of_gravity(repository: Path):
+    mass = ET.parse(repository / "aircraft/gta/mass-balance.xml").getroot()
+    first = mass.findall("pointmass")[0]
+    assert first.get("name") == "payload"
+    assert float(first.findtext("location/x") or "") == pytest.approx(18.988, abs=0.1)
+
+
+def test_aircraft_files_open_no_sockets_and_write_no_files(repository: Path):
+    for folder in ("aircraft/gta", "systems"):
+        for path in (repository / folder).glob("*.xml"):
+            root = ET.parse(path).getroot()
+            assert root.find("output") is None, path.name
+            assert root.find("input") is None, path.name
+
+
+def test_every_airframe_file_opens_by_saying_what_it_is(repository: Path):
+    for name in ("gear", "high-lift", "downwash", "attitude-hold"):
+        text = (repository / f"systems/{name}.xml").read_text()
+        assert re.match(r"<\?xml[^>]*>\s*<!--", text), name
+        for word in ("inputs", "output", "gains", "ource" if name != "downwash" else "time constant"):
+            assert word in text.split("-->")[0], (name, word)

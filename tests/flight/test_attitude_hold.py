@@ -1,0 +1,156 @@
+"""The attitude loops hold what they are told, from approach to cruise, light and heavy."""
+
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import jsbsim
+import pytest
+
+FT, KT, KG, DEG = 0.3048, 0.514444, 1 / 0.45359237, math.pi / 180
+INTEGRATORS = {
+    "rate/rotational": 3,
+    "rate/translational": 3,
+    "position/rotational": 7,
+    "position/translational": 4,
+}
+
+
+class Condition(NamedTuple):
+    name: str
+    altitude: float  # m
+    speed: dict[str, float]  # initial condition of JSBSim
+    mass: float  # kg
+    flap: float
+    pitch: float  # deg, near trim
+    lever: float
+
+
+CONDITIONS = [
+    Condition("approach", 500, {"vc-kts": 120}, 95e3, 1.0, 2.0, 0.32),
+    Condition("light, slow", 500, {"vc-kts": 100}, 81e3, 1.0, 4.0, 0.30),
+    Condition("take-off flap", 300, {"vc-kts": 140}, 141e3, 0.5, 7.9, 0.55),
+    Condition("circuit", 1000, {"vc-kts": 180}, 100e3, 0.0, 4.0, 0.33),
+    Condition("fast and low", 300, {"vc-kts": 305}, 110e3, 0.0, -2.0, 0.55),
+    Condition("FL230", 7010, {"mach": 0.40}, 110e3, 0.0, 6.2, 0.44),
+    Condition("FL370", 11278, {"mach": 0.60}, 85e3, 0.0, 2.2, 0.72),
+]
+
+
+class Flight:
+    """The aircraft in the air, engines running, held at an attitude."""
+
+    def __init__(self, root: Path, condition: Condition, rate: int = 120):
+        fdm = self.fdm = jsbsim.FGFDMExec(str(root))
+        fdm.set_debug_level(0)
+        fdm.set_dt(1 / rate)
+        assert fdm.load_model("gta")
+        for tank in range(7):
+            fdm[f"propulsion/tank[{tank}]/contents-lbs"] = 300 * KG
+        fdm["inertia/pointmass-weight-lbs[0]"] = (condition.mass - 78600 - 2100) * KG
+        fdm["ic/h-sl-ft"] = condition.altitude / FT
+        fdm["ic/theta-deg"] = condition.pitch
+        for name, value in condition.speed.items():
+            fdm[f"ic/{name}"] = value
+        fdm.run_ic()
+        for name in ("fcs/flap-cmd-norm", "fcs/flap-pos-norm"):
+            fdm[name] = condition.flap
+        for name in ("gear/gear-cmd-norm", "gear/gear-pos-norm"):
+            fdm[name] = float(condition.flap == 1)
+        for engine in range(4):
+            fdm[f"fcs/throttle-cmd-norm[{engine}]"] = condition.lever
+        self.integrate(False)
+        self.run(30)  # the engines run up while the aircraft stands still in the air
+        self.integrate(True)
+        fdm["ap/pitch-target-rad"] = condition.pitch * DEG
+        for axis in ("pitch", "roll", "yaw"):
+            fdm[f"ap/{axis}-mode"] = 1
+        self.run(15)
+
+    def integrate(self, on: bool) -> None:
+        for name, kind in INTEGRATORS.items():
+            self.fdm[f"simulation/integrator/{name}"] = kind if on else 0
+
+    def run(self, seconds: float, *names: str) -> list[tuple[float, ...]]:
+        """Fly on and give time and the named properties each frame."""
+        history = []
+        start = self.fdm.get_sim_time()
+        while self.fdm.get_sim_time() < start + seconds:
+            assert self.fdm.run()
+            history.append((self.fdm.get_sim_time() - start, *(self.fdm[name] for name in names)))
+        return history
+
+
+@pytest.fixture(params=CONDITIONS, ids=lambda condition: condition.name)
+def flight(request: pytest.FixtureRequest, repository: Path) -> Flight:
+    return Flight(repository, request.param)
+
+
+def test_a_pitch_step_settles_soon_without_overshoot(flight: Flight):
+    before, step = flight.fdm["attitude/theta-rad"], 2 * DEG
+    flight.fdm["ap/pitch-target-rad"] = before + step
+    history = flight.run(6, "attitude/theta-rad", "accelerations/Nz")
+    share = [(time, (pitch - before) / step) for time, pitch, _ in history]
+    settling = max(time for time, value in share if abs(value - 1) > 0.1)
+    assert settling < 2.7  # the load factor limit slows the step where the aircraft is fast
+    assert max(value for _, value in share) < 1.10
+    assert all(0.6 < load < 1.4 for *_, load in history)
+
+
+def test_thirty_degrees_of_bank_take_less_than_four_seconds(flight: Flight):
+    flight.fdm["ap/bank-target-rad"] = 30 * DEG
+    history = flight.run(8, "attitude/phi-rad", "velocities/phidot-rad_sec", "aero/beta-rad")
+    arrival = next(time for time, bank, *_ in history if bank > 28 * DEG)
+    assert arrival < 4
+    assert max(bank for _, bank, *_ in history) < 32 * DEG
+    assert max(rate for _, _, rate, _ in history) < 13 * DEG  # the reference's 10, and catching up with it
+    assert max(abs(sideslip) for *_, sideslip in history) < 4 * DEG
+    assert history[-1][1] == pytest.approx(30 * DEG, abs=1 * DEG)
+
+
+def circuit() -> Condition:
+    return next(condition for condition in CONDITIONS if condition.name == "circuit")
+
+
+def test_switching_a_mode_off_and_on_does_not_kick(repository: Path):
+    flight = Flight(repository, circuit())
+    elevator = flight.fdm["fcs/elevator-pos-rad"]
+    flight.fdm["fcs/elevator-cmd-norm"] = elevator / (0.436 if elevator < 0 else 0.30)
+    before = flight.fdm["accelerations/Nz"]
+    flight.fdm["ap/pitch-mode"] = 0
+    history = flight.run(1, "accelerations/Nz")
+    flight.fdm["ap/pitch-target-rad"] = flight.fdm["attitude/theta-rad"]
+    flight.fdm["ap/pitch-mode"] = 1
+    history += flight.run(3, "accelerations/Nz")
+    assert all(abs(load - before) < 0.03 for _, load in history)
+
+
+def test_pulling_for_ever_stops_short_of_the_stall(repository: Path):
+    flight = Flight(repository, circuit())
+    for engine in range(4):
+        flight.fdm[f"fcs/throttle-cmd-norm[{engine}]"] = 0.1
+    flight.fdm["ap/pitch-target-rad"] = 20 * DEG
+    history = flight.run(60, "aero/alpha-stall-margin-rad")
+    assert all(margin > 0.5 * DEG for _, margin in history)
+    assert min(margin for _, margin in history) < 5 * DEG  # it was really asked
+
+
+def test_the_loss_of_an_outer_engine_is_coordinated(repository: Path):
+    condition = Condition("climb", 300, {"vc-kts": 125}, 110e3, 0.5, 12.0, 1.0)
+    flight = Flight(repository, condition)
+    flight.fdm["propulsion/engine-run[0]"] = 0
+    history = flight.run(20, "attitude/phi-rad", "aero/beta-rad")
+    assert all(abs(bank) < 3 * DEG and abs(sideslip) < 8 * DEG for _, bank, sideslip in history)
+    assert abs(history[-1][2]) < 0.5 * DEG
+
+
+def test_the_frame_rate_makes_no_difference(repository: Path):
+    ends = []
+    for rate in (120, 480):
+        flight = Flight(repository, circuit(), rate)
+        flight.fdm["ap/pitch-target-rad"] = 6 * DEG
+        flight.fdm["ap/bank-target-rad"] = 25 * DEG
+        ends.append(flight.run(1.5, "attitude/theta-rad", "attitude/phi-rad")[-1])
+    two_frames = 2 / 120 * 10 * DEG  # at the roll rate limit
+    assert ends[0][1] == pytest.approx(ends[1][1], abs=two_frames)
+    assert ends[0][2] == pytest.approx(ends[1][2], abs=two_frames)
