@@ -144,6 +144,23 @@ def test_the_loss_of_an_outer_engine_is_coordinated(repository: Path):
     assert abs(history[-1][2]) < 0.5 * DEG
 
 
+def test_all_modes_on_a_parked_aircraft_are_quiet(repository: Path):
+    fdm = jsbsim.FGFDMExec(str(repository))
+    fdm.set_debug_level(0)
+    fdm.set_dt(1 / 120)
+    assert fdm.load_model("gta")
+    fdm["ic/h-agl-ft"] = 4.1 / FT
+    fdm.run_ic()
+    fdm["fcs/left-brake-cmd-norm"] = fdm["fcs/right-brake-cmd-norm"] = 1
+    for axis in ("pitch", "roll", "yaw"):
+        fdm[f"ap/{axis}-mode"] = 1
+    surfaces = [f"fcs/{surface}-pos-rad" for surface in ("elevator", "aileron", "rudder")]
+    for frame in range(60 * 120):
+        assert fdm.run()
+        if frame > 20 * 120:  # settled on its wheels, engines running
+            assert all(abs(fdm[surface]) < 3 * DEG for surface in surfaces)
+
+
 def test_the_frame_rate_makes_no_difference(repository: Path):
     ends = []
     for rate in (120, 480):
