@@ -13,6 +13,18 @@ def wrap(angle: float) -> float:
     return (angle + pi) % (2.0 * pi) - pi
 
 
+QUANTUM = 2.0**-13  # 1.2e-4: of a radian far below what an aircraft feels, of a full deflection too
+ROUNDER = 1.5 * 2.0**39  # its last binary digit is the quantum: adding it leaves no room for anything finer
+
+
+def quantised(value: float) -> float:
+    """`value` to the nearest QUANTUM, so that a steady command stays the same number and a recording of it short.
+
+    Adding and taking away a large number is ten times faster than `round`, which works in decimal.
+    """
+    return value + ROUNDER - ROUNDER
+
+
 def approach(value: float, target: float, step: float) -> float:
     """`value` moved towards `target` by at most `step`."""
     return target if abs(target - value) <= step else value + step if target > value else value - step

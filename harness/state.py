@@ -6,17 +6,17 @@ from typing import NamedTuple
 class State(NamedTuple):
     """The aircraft as the pilot sees it at one instant.
 
-    Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres. Well above the
-    ground a plant may renew the fields from `altitude` on less often than at every pilot step, at least at 8 Hz.
+    Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres. On and just above
+    the runway a plant renews all fields at every pilot step; elsewhere those of FAST, those of MEDIUM every
+    MEDIUM_PERIOD steps (4 Hz) and the others every SLOW_PERIOD (1 Hz).
     """
 
     time: float  # simulated time since the first frame, s
+    vertical_speed: float  # m/s, up
+    pitch: float  # nose up
     height: float  # of the main wheels above the ground, aircraft level: 0 on the runway
     cas: float  # m/s
     tas: float
-    vertical_speed: float  # up
-    pitch: float  # nose up
-    main_on_ground: float  # 0 or 1
     altitude: float  # above mean sea level (the chart's height)
     pressure_altitude: float  # ISA altitude of the static pressure, geopotential
     latitude: float  # geodetic, WGS84
@@ -25,19 +25,21 @@ class State(NamedTuple):
     velocity_east: float
     heading: float  # true
     roll: float  # right wing down
-    roll_rate: float  # body axes, rad/s
-    pitch_rate: float
-    yaw_rate: float
-    alpha: float
-    beta: float
     load_factor: float  # normal, 1 in level flight
-    mach: float
-    nose_on_ground: float
-    flap: float  # 0 up .. 1 landing
-    gear: float  # 0 up .. 1 down
     stall_warning: float  # 0 or 1
+    main_on_ground: float  # 0 or 1
+    yaw_rate: float  # body axes, rad/s
     mass: float  # kg
     fuel: float  # kg
+    fuel_used: float  # kg, the integral of the fuel flow over every frame
+    nose_on_ground: float
+    roll_rate: float
+    pitch_rate: float
+    alpha: float
+    beta: float
+    mach: float
+    flap: float  # 0 up .. 1 landing
+    gear: float  # 0 up .. 1 down
     fuel_flow: float  # kg/s, all engines
     thrust: float  # N, all engines
     propeller_speed: float  # of the slowest propeller, rad/s
@@ -45,8 +47,17 @@ class State(NamedTuple):
     temperature: float  # static, K
 
 
-FAST_FIELDS = State._fields[: State._fields.index("altitude")]
-"""The fields that are renewed at every pilot step."""
+FAST = State._fields[:3]
+MEDIUM = State._fields[3:21]
+MEDIUM_PERIOD = 6  # pilot steps
+SLOW_PERIOD = 24
+LOW = 100.0  # m above the ground
+BRISK = 15.0  # m/s: faster than taxiing
+
+
+def close_to_ground(height: float, cas: float) -> bool:
+    """Whether everything has to be watched at every pilot step: on and just above the runway."""
+    return height < LOW and cas > BRISK
 
 
 class Commands(NamedTuple):

@@ -7,10 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.log.run import Event, History
-from harness.state import Commands, State
+from harness.state import BRISK, Commands, State
 
 Floats = NDArray[np.float64]
 
+LOW = 300.0  # m
+OVER_THE_RUNWAY = 30.0  # m
 BOUNCE = 5.0
 """Wheels that touch again this soon after leaving the ground, s, have bounced: no other touchdown."""
 
@@ -37,31 +39,20 @@ class Reporter(Protocol):
         ...
 
 
-class Moment(NamedTuple):
-    """The aircraft at an instant that counts, and the fuel used until then (kg)."""
-
-    state: State
-    fuel_used: float
-
-
 class FlightLog:
-    """Records every `every`-th pilot step, and every event with the aircraft's state in its own step.
+    """Records the flight at 1 Hz, at 4 Hz near the ground, at 12 Hz on the runway and just above it; and every event.
 
-    The fuel used is the integral of the fuel flow over the records, to be held against the scales.
+    A record keeps State as the pilot saw it.
     """
 
-    def __init__(self, every: int = 6) -> None:
+    def __init__(self) -> None:
         self.events: list[Event] = []
-        self.passages: list[tuple[Event, Moment]] = []
-        self.moments: dict[str, Moment] = {}
-        self._every = every
-        self._rows: list[tuple[State, Commands, str, tuple[str, ...], tuple[float, ...], float]] = []
+        self.passages: list[tuple[Event, State]] = []
+        self.moments: dict[str, State] = {}
+        self._rows: list[tuple[State, Commands, str, tuple[str, ...], tuple[float, ...]]] = []
         self._mode_names: tuple[str, ...] = ()
         self._target_names: tuple[str, ...] = ()
         self._countdown = 1
-        self._time = 0.0
-        self._fuel_flow = 0.0
-        self._fuel_used = 0.0
         self._brake: float | None = None
         self._on_ground = 1.0
         self._left_ground = 0.0
@@ -83,16 +74,15 @@ class FlightLog:
         ):
             return
         self._pilot = pilot
-        self._burn(state)
         if state.main_on_ground != self._on_ground:
             self._wheels(state)
         if commands.brake != self._brake:
             self._brakes(state, commands, pilot)
         if self._passed:
-            self.passages += [(event, Moment(state, self._fuel_used)) for event in self._passed]
+            self.passages += [(event, state) for event in self._passed]
             self._passed.clear()
         if self._countdown <= 0:
-            self._countdown = self._every
+            self._countdown = _interval(state)
             self._record(state, commands, pilot)
 
     def note(self, event: Event) -> None:
@@ -106,13 +96,11 @@ class FlightLog:
     def history(self) -> History:
         """The columns recorded so far, ending with the last step seen."""
         if self._last and self._commands and self._pilot and self._rows[-1][0] is not self._last:
-            self._burn(self._last)
             self._record(self._last, self._commands, self._pilot)
         if not self._rows:
             return {"time": np.empty(0)}
-        states, commands, phases, modes, targets, fuel_used = zip(*self._rows, strict=True)
+        states, commands, phases, modes, targets = zip(*self._rows, strict=True)
         numbers = dict(zip(State._fields, np.array(states).T.copy(), strict=True))
-        numbers["fuel_used"] = np.array(fuel_used)
         numbers["distance"] = _integral(
             numbers["time"], np.hypot(numbers["velocity_north"], numbers["velocity_east"])
         )
@@ -135,30 +123,31 @@ class FlightLog:
         if not self._rows:
             self._mode_names, self._target_names = tuple(modes), tuple(targets)
         self._rows.append(
-            (state, commands, pilot.phase, tuple(modes.values()), tuple(targets.values()), self._fuel_used)
+            (state, commands, pilot.phase, tuple(modes.values()), tuple(targets.values()))
         )
-
-    def _burn(self, state: State) -> None:
-        self._fuel_used += 0.5 * (state.fuel_flow + self._fuel_flow) * (state.time - self._time)
-        self._time = state.time
-        self._fuel_flow = state.fuel_flow
 
     def _wheels(self, state: State) -> None:
         self._on_ground = state.main_on_ground
         if not state.main_on_ground:
             self._left_ground = state.time
             if "touchdown" not in self.moments:
-                self.moments["lift-off"] = Moment(state, self._fuel_used)
+                self.moments["lift-off"] = state
         elif state.time - self._left_ground > BOUNCE:
-            self.moments["touchdown"] = Moment(state, self._fuel_used)
+            self.moments["touchdown"] = state
 
     def _brakes(self, state: State, commands: Commands, pilot: Reporter) -> None:
         self._brake = commands.brake
         if commands.brake == 0.0:
-            moment = Moment(state, self._fuel_used)
-            self.moments.setdefault("off blocks", moment)
+            self.moments.setdefault("off blocks", state)
             if pilot.phase.startswith("T/O"):
-                self.moments.setdefault("brake release", moment)
+                self.moments.setdefault("brake release", state)
+
+
+def _interval(state: State) -> int:
+    """Pilot steps to the next record."""
+    if state.height > LOW:
+        return 24
+    return 2 if state.height < OVER_THE_RUNWAY and state.cas > BRISK else 6
 
 
 def _integral(time: Floats, rate: Floats) -> Floats:

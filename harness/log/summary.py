@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from harness.log.record import FlightLog, Moment
+from harness.log.record import FlightLog
 from harness.log.run import Event, History, Passage, Run
+from harness.state import State
 from harness.world import earth
 
 SCHEMA = 1
@@ -58,20 +59,20 @@ def _flight(log: FlightLog, history: History, passages: tuple[Passage, ...]) -> 
         "flight_time_s": _between(_time(release), _time(touchdown)),
         "block_time_s": _between(_time(off_blocks), end),
         "time_to_last_waypoint_s": _between(_time(release), passages[-1].time if passages else None),
-        "takeoff_mass_kg": release.state.mass if release else None,
-        "landing_mass_kg": touchdown.state.mass if touchdown else None,
+        "takeoff_mass_kg": release.mass if release else None,
+        "landing_mass_kg": touchdown.mass if touchdown else None,
         "distance_km": None,
         "fuel_burned_kg": None,
         "mass_closure_kg": None,
     }
     if release and touchdown:
         begin_distance, end_distance = np.interp(
-            (release.state.time, touchdown.state.time), history["time"], history["distance"]
+            (release.time, touchdown.time), history["time"], history["distance"]
         )
         used = touchdown.fuel_used - release.fuel_used
         result["distance_km"] = float(end_distance - begin_distance) / 1000.0
-        result["fuel_burned_kg"] = release.state.fuel - touchdown.state.fuel
-        result["mass_closure_kg"] = release.state.mass - touchdown.state.mass - used
+        result["fuel_burned_kg"] = release.fuel - touchdown.fuel
+        result["mass_closure_kg"] = release.mass - touchdown.mass - used
     return result
 
 
@@ -99,12 +100,12 @@ def _passages(
     if not log.passages:
         return ()
     release = log.moments.get("brake release", log.passages[0][1])
-    times = [moment.state.time for _, moment in log.passages]
+    times = [moment.time for _, moment in log.passages]
     rows = []
-    for index, (event, (state, fuel_used)) in enumerate(log.passages):
+    for index, (event, state) in enumerate(log.passages):
         begin = times[index - 1] if index else 0.0
         end = times[index + 1] if index + 1 < len(times) else math.inf
-        distances = np.interp((release.state.time, state.time), history["time"], history["distance"])
+        distances = np.interp((release.time, state.time), history["time"], history["distance"])
         rows.append(
             Passage(
                 name=event.name,
@@ -117,7 +118,7 @@ def _passages(
                 tas=state.tas,
                 mach=state.mach,
                 distance=float(distances[1] - distances[0]),
-                fuel_used=fuel_used - release.fuel_used,
+                fuel_used=state.fuel_used - release.fuel_used,
                 mass=state.mass,
                 closest=_closest(history, begin, end, fixes.get(event.name)),
             )
@@ -134,8 +135,8 @@ def _closest(history: History, begin: float, end: float, fix: tuple[float, float
     return min((earth.inverse(*position, *fix)[2] for position in track), default=math.nan)
 
 
-def _time(moment: Moment | None) -> float | None:
-    return moment.state.time if moment else None
+def _time(moment: State | None) -> float | None:
+    return moment.time if moment else None
 
 
 def _between(begin: float | None, end: float | None) -> float | None:

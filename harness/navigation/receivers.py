@@ -80,6 +80,12 @@ def dme(station: Station, latitude: float, longitude: float, altitude: float) ->
     return DmeReading(distance, distance <= horizon(station.elevation) + horizon(altitude))
 
 
+def vor_dme(station: Station, latitude: float, longitude: float, altitude: float) -> tuple[float, float]:
+    """Read the magnetic radial and the slant range of a station that has both, as `vor` and `dme` would."""
+    east, north, up = station.antenna.locate(latitude, longitude, altitude)
+    return (atan2(east, north) - station.declination) % tau, sqrt(east * east + north * north + up * up)
+
+
 def ils_dme(ils: Ils, latitude: float, longitude: float, altitude: float) -> DmeReading:
     """Read the DME of the ILS: slant range to the glide-slope antenna."""
     distance = hypot(*ils.glide_antenna.locate(latitude, longitude, altitude))

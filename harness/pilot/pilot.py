@@ -9,23 +9,22 @@ from harness.log.run import Event
 from harness.manual import FlightManual
 from harness.mission.model import Leg, Mission
 from harness.navigation.database import Ils, Runway
-from harness.numerics import approach, clamp, wrap
+from harness.numerics import approach, clamp, quantised, wrap
 from harness.pilot.checklist import Item, OpenChecklist, item, prepared
 from harness.pilot.ground import Centreline, GroundSteering, TaxiPath
 from harness.pilot.machine import END, START, PhaseGraph
 from harness.pilot.modes.horizontal import HorizontalMode
 from harness.pilot.modes.speed import SpeedMode
-from harness.pilot.modes.vertical import DIGITS, VerticalMode
+from harness.pilot.modes.vertical import VerticalMode
 from harness.pilot.route import NavigationComputer, Passage
 from harness.plan import Step
 from harness.plan_reader import parse_reference
-from harness.state import Commands, State
+from harness.state import MEDIUM_PERIOD, Commands, State, close_to_ground
 from harness.units import parse
 from harness.vocabulary import CONTROLS
 from harness.world.local import LocalFrame
 
-OUTER_PERIOD = 3  # pilot steps between two turns of the outer loops in flight: route, bank, airspeed
-FAST = frozenset({"time-in-phase", "cas", "ground-speed", "height", "vertical-speed", "pitch", "main-gear-on-ground"})
+FAST = frozenset({"time-in-phase", "vertical-speed", "pitch"})
 """Quantities renewed at every pilot step; what waits for another one is read when the outer loops turn."""
 LEVEL_REACHED = 30.0  # m: a level this near is captured however slowly it is approached
 DEFAULT_TIME_LIMIT = 7200.0  # s in one phase, where the manual says nothing
@@ -53,7 +52,7 @@ class Pilot:
         self.route = NavigationComputer(mission.legs, arrival, mission.environment.qnh, gains["bank-limit"])
         self.route.on_passage = self._passed
         self.speed_mode = SpeedMode(gains)
-        self.vertical = VerticalMode(gains)
+        self.vertical = VerticalMode(gains, step)
         self.horizontal = HorizontalMode(gains)
         self.steering = GroundSteering(gains)
         self.controls = dict.fromkeys(CONTROLS, "DIRECT")
@@ -65,6 +64,7 @@ class Pilot:
         self.listeners: list[Callable[[Event], None]] = []
         self._graph = PhaseGraph()
         self.phase = START
+        self.done = False  # the mission is complete
         self._departure = departure
         self._arrival = arrival.runway
         self._runway = departure
@@ -72,12 +72,15 @@ class Pilot:
         self._taxi: TaxiPath | None = None
         self._settings = Commands()
         self._braking = 0.0  # taxi brakes
+        self._wheel = 0.0
+        self._rudder = 0.0
+        self._coordinate = 0.0
         self._speed_words = "leg-speed"
         self._speed_value = 0.0
         self._pending: list[_ReadyStep] = []
         self._checklists: Sequence[OpenChecklist] = ()
         self._deadline = inf
-        self._every_step = True
+        self._period = 1
         self._airborne_route = False
         self._approaching = False
         self._bank = 0.0
@@ -89,11 +92,6 @@ class Pilot:
         self._modes: dict[str, str] = {}
         self._state: State | None = None
         self._rename_modes()
-
-    @property
-    def done(self) -> bool:
-        """The mission is complete."""
-        return self.phase == END
 
     @property
     def modes(self) -> Mapping[str, str]:
@@ -130,7 +128,7 @@ class Pilot:
         self._countdown -= 1
         if self._countdown > 0 and not self._alert:
             commands = self._commands
-            pitch = self._pitch(state)
+            pitch = self.vertical.fly(state.vertical_speed, state.pitch)
             if pitch != commands.pitch:
                 commands = self._commands = Commands(commands.throttle, pitch, *commands[2:])
             return commands
@@ -143,7 +141,7 @@ class Pilot:
                 self._begun = True
                 self._enter(START, state, "start of the mission")
             self._navigate(state)
-            self.level_error = self.route.level_error(state)
+            self.level_error = self.route.level - state.pressure_altitude
         for checklist in self._checklists:
             if checklist.complete(state):
                 self._proceed(checklist, state)
@@ -155,8 +153,9 @@ class Pilot:
             self.carry_out(self._pending.pop(0).step, state)
             self._watch()
         if outer:
-            self._countdown = 1 if self._every_step else OUTER_PERIOD
-            self._turn_outer_loops(state)
+            period = 1 if close_to_ground(state.height, state.cas) else MEDIUM_PERIOD
+            self._turn_outer_loops(state, self._period * self.step)
+            self._countdown = self._period = period
         self._commands = self._control(state)
         return self._commands
 
@@ -280,6 +279,7 @@ class Pilot:
 
     def _enter(self, phase: str, state: State, reason: str) -> None:
         self.phase = phase
+        self.done = phase == END
         self.phase_begin = state.time
         self._note("phase", phase, reason)
         if phase.startswith(("APP", "LDG")) and self._runway is not self._arrival:
@@ -290,10 +290,9 @@ class Pilot:
         self._pending = []
         self._checklists = ()
         self._deadline = state.time + self.manual.gains.get(f"time-limit {phase}", DEFAULT_TIME_LIMIT)
-        self._every_step = not phase.startswith(("DEP", "ENR", "APP.intermediate"))
         self._airborne_route = phase.startswith(("DEP", "ENR", "M/A", "APP"))
         self._approaching = phase.startswith(("APP", "LDG"))
-        self.level_error = self.route.level_error(state)
+        self.level_error = self.route.level - state.pressure_altitude
         if plan is not None:
             self._pending = [
                 _ReadyStep(step, tuple(item(when, self, state.mass) for when in step.when)) for step in plan.steps
@@ -353,53 +352,52 @@ class Pilot:
             else:
                 self.route.update_approach(state)
 
-    def _pitch(self, state: State) -> float:
-        route = self.route
-        return self.vertical.update(
-            state, self.level_error, route.glide_slope, route.distance_to_threshold, self._wanted_path, self.step
-        )
-
     def _control(self, state: State) -> Commands:
-        pitch = self._pitch(state)
+        pitch = self.vertical.fly(state.vertical_speed, state.pitch)
         lever, settings = self.speed_mode.lever, self._settings
-        brake, wheel, rudder, coordinate = settings.brake, 0.0, settings.rudder, 0.0
-        if self._taxiing:
-            wheel, lever, brake = self._taxi_along(state)
-        elif self._steering:
-            wheel, rudder = self._along_runway(state)
-        elif self._coordinated:
-            coordinate = 1.0
+        brake = self._braking if self._taxiing else settings.brake
         return Commands(
             lever,
             pitch,
             self._bank,
-            rudder,
-            wheel,
+            self._rudder,
+            self._wheel,
             brake,
             self._pitch_hold,
             settings.elevator,
             self._bank_hold,
             settings.aileron,
-            coordinate,
+            self._coordinate,
             settings.flap,
             settings.gear,
             settings.speedbrake,
             settings.spoiler,
         )
 
-    def _turn_outer_loops(self, state: State) -> None:
+    def _turn_outer_loops(self, state: State, dt: float) -> None:
+        """Renew what moves slowly; `dt` is the time since the last turn."""
         speed = self.speed_mode
-        dt = self.step if self._every_step else self.step * OUTER_PERIOD
         words = self._speed_words
         self.target_cas = self.route.target_cas if words == "leg-speed" else self._speed_value
-        self._bank = round(self.horizontal.update(state, self.route.guidance), DIGITS)
+        self._bank = quantised(self.horizontal.update(state, self.route.guidance))
         speed.observe(state, dt)
         if speed.sub_mode == "PITCH":
             self._wanted_path = speed.path(state, self.target_cas)
         elif speed.sub_mode == "THR" and not self._taxiing:
             speed.update(state, self.target_cas, self.vertical.path_error(state), dt)
+        wheel, rudder, self._coordinate = 0.0, self._settings.rudder, 0.0
+        if self._taxiing:
+            wheel = self._taxi_along(state, dt)
+        elif self._steering:
+            wheel, rudder = self._along_runway(state, dt)
+        elif self._coordinated:
+            self._coordinate = 1.0
+        self._wheel, self._rudder = quantised(wheel), quantised(rudder)
+        route = self.route
+        self.vertical.aim(state, self.level_error, route.glide_slope, route.distance_to_threshold, self._wanted_path)
 
-    def _along_runway(self, state: State) -> tuple[float, float]:
+    def _along_runway(self, state: State, dt: float) -> tuple[float, float]:
+        """Return (nose wheel, rudder) that keep the centreline."""
         along, across = self._centreline.offset(state)
         if not state.main_on_ground:
             return 0.0, self.steering.align(state, self._centreline.heading)
@@ -413,15 +411,14 @@ class Pilot:
                 required=f"within {self._runway.length:.0f} m and {0.5 * self._runway.width:.0f} m",
                 knob="less mass, a longer runway, or more brake",
             )
-        return self.steering.hold_line(state, self._centreline.heading, across, self.step)
+        return self.steering.hold_line(state, self._centreline.heading, across, dt)
 
-    def _taxi_along(self, state: State) -> tuple[float, float, float]:
-        """Return (nose wheel, lever, brake) along the taxi path."""
+    def _taxi_along(self, state: State, dt: float) -> float:
+        """Set lever and brakes for the speed the taxi path allows, and return the nose wheel."""
         gains = self.manual.gains
         speed = hypot(state.velocity_north, state.velocity_east)
-        if self._taxi is None:
-            wheel, allowed = 0.0, 0.0
-        else:
+        wheel, allowed = 0.0, 0.0
+        if self._taxi is not None:
             look_ahead = max(gains["taxi-look-ahead"], 2.0 * speed)
             error, allowed, self.taxi_distance = self._taxi.follow(state, look_ahead)
             wheel, _ = self.steering.pursue(state, error, look_ahead)
@@ -430,10 +427,10 @@ class Pilot:
         self.target_cas = allowed
         excess = speed - allowed
         lever = clamp(-excess * gains["taxi-lever-gain"], 0.0, gains["taxi-lever-limit"])
-        self.speed_mode.lever = approach(self.speed_mode.lever, lever, 0.1 * self.step)
+        self.speed_mode.lever = quantised(approach(self.speed_mode.lever, lever, 0.1 * dt))
         wanted = clamp(excess * gains["taxi-brake-gain"], 0.0, 0.5) if allowed > 0.0 else 0.4
-        self._braking = approach(self._braking, wanted, 0.5 * self.step)
-        return wheel, self.speed_mode.lever, self._braking
+        self._braking = quantised(approach(self._braking, wanted, 0.5 * dt))
+        return wheel
 
     def _rename_modes(self) -> None:
         self._taxiing = self.speed_mode.sub_mode == "THR" and self._speed_words == "taxi"

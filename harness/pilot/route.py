@@ -58,10 +58,14 @@ class NavigationComputer:
         self.ils = ils
         self.runway: Runway = ils.runway
         self.index = 0
+        self.leg: Leg
+        self.level: float  # wanted, as pressure altitude, m
         self.passages: list[Passage] = []
         self.on_passage: Callable[[Leg, Passage], None] = lambda leg, passage: None
         self._turn_bank = turn_bank
         self._altimeter_setting = pressure_altitude(qnh)
+        self._take(legs[0])
+        self.waypoints_remaining = len(legs)
         self._line = Line(0.0, 0.0, 0.0, 0.0)
         self._closest = inf
         self._begun = False
@@ -74,29 +78,11 @@ class NavigationComputer:
         self.distance_to_threshold = inf
 
     @property
-    def leg(self) -> Leg:
-        """The active leg; after the last waypoint still the last one, for its speed and level."""
-        return self.legs[min(self.index, len(self.legs) - 1)]
-
-    @property
-    def waypoints_remaining(self) -> int:
-        """Waypoints not passed yet."""
-        return len(self.legs) - self.index
-
-    @property
     def distance_to_go(self) -> float:
         """Along the route to the threshold, m."""
         if self.waypoints_remaining == 0:
             return self.distance_to_threshold
         return max(self.remaining, 0.0) + self._after[self.index]
-
-    def altimeter(self, state: State) -> float:
-        """The altitude shown against the active level: pressure altitude for a flight level, else above QNH."""
-        return state.pressure_altitude - (0.0 if self.leg.level.kind == "FL" else self._altimeter_setting)
-
-    def level_error(self, state: State) -> float:
-        """How far the active level lies above the aircraft, m."""
-        return self.leg.level.altitude - self.altimeter(state)
 
     def speed_target(self, state: State) -> float:
         """The active leg's speed as CAS, m/s."""
@@ -112,8 +98,12 @@ class NavigationComputer:
         if not self._begun:
             self._begun = True
             self._begin(state.latitude, state.longitude)
-        if self.index < len(self.legs):
-            self._follow(state)
+        if self.waypoints_remaining:
+            leg = self.leg
+            if self._home(leg, state) if leg.mode == "homing" else self._track(leg, state):
+                self._pass(leg, state)
+                self.update(state)
+                return
         self.target_cas = self.speed_target(state)
 
     def update_approach(self, state: State) -> None:
@@ -123,16 +113,6 @@ class NavigationComputer:
         along, across = self.runway.offset(state.latitude, state.longitude)
         self.distance_to_threshold = -along
         self.guidance = Guidance(False, 0.0, across, self.runway.true_heading)
-
-    def _follow(self, state: State) -> None:
-        leg = self.legs[self.index]
-        if leg.mode == "homing":
-            passed = self._home(leg, state)
-        else:
-            passed = self._track(leg, state)
-        if passed:
-            self._pass(leg, state)
-            self.update(state)
 
     def _home(self, leg: Leg, state: State) -> bool:
         """Point the nose at the station; it is passed when it moves behind the wings."""
@@ -155,22 +135,18 @@ class NavigationComputer:
 
     def _track(self, leg: Leg, state: State) -> bool:
         """Stay on the leg's line; the waypoint is passed abeam, or a turn's lead before it if flown by."""
-        line = self._line
-        station = leg.fix.station
-        if station is not None and station.has_bearing and not station.is_ndb:
-            radial = receivers.vor(station, state.latitude, state.longitude, state.altitude).radial
+        line, station = self._line, leg.fix.station
+        latitude, longitude = state.latitude, state.longitude
+        if station is not None and station.has_bearing and station.has_dme:
+            radial, slant = receivers.vor_dme(station, latitude, longitude, state.altitude)
             azimuth = radial + station.declination
-        else:
-            azimuth, _, _ = earth.inverse(line.latitude, line.longitude, state.latitude, state.longitude)
-        if station is not None and station.has_dme:
-            slant = receivers.dme(station, state.latitude, state.longitude, state.altitude).distance
             distance = ground_range(slant, state.altitude - station.elevation, state.altitude)
         else:
-            _, _, distance = earth.inverse(line.latitude, line.longitude, state.latitude, state.longitude)
+            azimuth, _, distance = earth.inverse(line.latitude, line.longitude, latitude, longitude)
         along, across = earth_offsets(distance, azimuth - line.course)
         self.remaining = line.end - along
         # Meridians converge: the geodesic of the line has another true course here than at its reference point.
-        convergence = (state.longitude - line.longitude) * sin(0.5 * (state.latitude + line.latitude))
+        convergence = (longitude - line.longitude) * sin(0.5 * (latitude + line.latitude))
         self.guidance = Guidance(False, 0.0, across, (line.course + convergence) % (2 * pi))
         self._closest = min(self._closest, hypot(self.remaining, across))
         return self.remaining <= (self._lead(state) if leg.turn == "fly-by" else 0.0)
@@ -210,11 +186,12 @@ class NavigationComputer:
     def _begin(self, latitude: float, longitude: float) -> None:
         """Draw the line of the active leg; a leg without a course is flown from (latitude, longitude)."""
         self._closest = inf
-        if self.index >= len(self.legs):
+        self.waypoints_remaining = len(self.legs) - self.index
+        if not self.waypoints_remaining:
             self.remaining = 0.0
             return
-        fix = self.legs[self.index].fix
-        course = self.legs[self.index].course_true
+        self._take(self.legs[self.index])
+        fix, course = self.leg.fix, self.leg.course_true
         if course is None:
             _, course, _ = earth.inverse(latitude, longitude, fix.latitude, fix.longitude)
             self._line = Line(fix.latitude, fix.longitude, course, 0.0)
@@ -222,6 +199,12 @@ class NavigationComputer:
             self._line = Line(fix.station.latitude, fix.station.longitude, course, fix.distance or 0.0)
         else:
             self._line = Line(fix.latitude, fix.longitude, course, 0.0)
+
+    def _take(self, leg: Leg) -> None:
+        """Make `leg` the active one: its speed and level are aimed at, after the last waypoint too."""
+        self.leg = leg
+        setting = 0.0 if leg.level.kind == "FL" else self._altimeter_setting
+        self.level = leg.level.altitude + setting
 
     def _distances_after(self) -> list[float]:
         """For each leg, the distance from its fix along the rest of the route to the threshold."""

@@ -12,7 +12,7 @@ import jsbsim
 from harness.errors import GroundImpactError, InputError, NumericalError
 from harness.plant.messages import Messages
 from harness.plant.properties import COMMANDS, PROBES, PSF, STATE, Binding
-from harness.state import FAST_FIELDS, Commands, State
+from harness.state import FAST, MEDIUM, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, close_to_ground
 from harness.units import FT, LB
 
 INTEGRATORS = {
@@ -23,11 +23,7 @@ INTEGRATORS = {
     "simulation/integrator/position/rotational": 7.0,
     "simulation/integrator/position/translational": 4.0,
 }
-COMMAND_DIGITS = 5
-"""Commands are rounded to this many digits before they are written, so that a recorded flight can be replayed exactly."""
 TERRAIN_PERIOD = 24  # pilot steps between two looks at the terrain below
-SLOW_PERIOD = 3  # pilot steps between two readings of all of State, well above the ground
-NEAR_GROUND = 300.0  # m; below it all of State is read at every step
 TERRAIN_HEIGHT = 60.0  # m; nearer the ground its elevation stays what it was
 IMPACT_SINK = 5.0  # m/s at the wheels: about twice the limit descent velocity of CS 25.473 (3.05 m/s)
 STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground trim finds the true one
@@ -96,9 +92,10 @@ class JSBSimPlant:
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air)
         self._getters = [self._getter(binding) for binding in STATE]
-        self._fast_getters = self._getters[:_SLOW]
-        self._values: list[float] = []
-        self._near_ground = True
+        self._fast = self._getters[:_FAST]
+        self._medium = self._getters[:_MEDIUM]
+        self._rest: tuple[float, ...] = ()
+        self._close = False
         self._factors = [binding.factor for binding in STATE]
         self._probes = [self._getter(binding) for binding in PROBES]
         self._probe_factors = [binding.factor for binding in PROBES]
@@ -124,9 +121,10 @@ class JSBSimPlant:
 
     def state(self) -> State:
         """The aircraft as it is now."""
-        self._values = list(map(mul, map(call, self._getters), self._factors))
-        self._values[_HEIGHT] -= self._standing_height
-        return new_state(self._values)
+        values = list(map(mul, map(call, self._getters), self._factors))
+        values[_HEIGHT] -= self._standing_height
+        self._rest = tuple(values[_FAST:])
+        return new_state(values)
 
     def probe(self) -> tuple[float, ...]:
         """What a recorder wants besides State, in the order of `properties.PROBES`, SI."""
@@ -143,22 +141,27 @@ class JSBSimPlant:
         for _ in self._frames:
             run()
         self._steps += 1
-        if self._near_ground or not self._steps % SLOW_PERIOD:
+        if self._close or not self._steps % MEDIUM_PERIOD:
             return self._look_around()
-        values = self._values
-        values[:_SLOW] = map(mul, map(call, self._fast_getters), self._factors)
-        values[_HEIGHT] -= self._standing_height
-        if not -inf < sum(values[:_SLOW]) < inf:
+        time, climb, pitch = self._fast  # by hand: this runs at every pilot step
+        vertical_speed, attitude = climb() * FT, pitch()
+        if not -inf < vertical_speed + attitude < inf:
             raise self._not_finite()
-        return new_state(values)
+        return new_state((time(), vertical_speed, attitude, *self._rest))
 
     def _look_around(self) -> State:
-        """Read all of State, and see whether it is still the state of an aircraft."""
-        state = self.state()
+        """Read more of State, and see whether it is still the state of an aircraft."""
+        if self._close or not self._steps % SLOW_PERIOD:
+            state = self.state()
+        else:
+            medium = list(map(mul, map(call, self._medium), self._factors))
+            medium[_HEIGHT] -= self._standing_height
+            state = new_state((*medium, *self._rest[_MEDIUM - _FAST :]))
+            self._rest = state[_FAST:]
         if not -inf < sum(state) < inf:
             raise self._not_finite()
         sink, self._sink = self._sink, -state.vertical_speed
-        self._near_ground = state.height < NEAR_GROUND
+        self._close = close_to_ground(state.height, state.cas)
         if (state.main_on_ground and sink > IMPACT_SINK) or state.height < BELOW_GROUND:
             raise GroundImpactError(
                 f"hit the ground at {sink:.1f} m/s",
@@ -208,10 +211,11 @@ class JSBSimPlant:
             self._put(f"propulsion/tank[{i}]/contents-lbs", contents / LB)
 
     def _write(self, commands: Commands) -> None:
-        for setters, new, old in zip(self._setters, commands, self._written, strict=True):
-            if new != old:
-                value = round(new, COMMAND_DIGITS)
-                for setter in setters:
+        written = self._written
+        for i in _MOVING if commands[_STANDING:] == written[_STANDING:] else _EVERY:
+            value = commands[i]
+            if value != written[i]:
+                for setter in self._setters[i]:
                     setter(value)
         self._written = commands
 
@@ -241,7 +245,11 @@ class JSBSimPlant:
 
 
 _HEIGHT = State._fields.index("height")
-_SLOW = len(FAST_FIELDS)
+_STANDING = Commands._fields.index("pitch_hold")  # from here on commands change by procedures only
+_EVERY = range(len(Commands._fields))
+_MOVING = range(_STANDING)
+_FAST = len(FAST)
+_MEDIUM = _FAST + len(MEDIUM)
 new_state: Callable[[Iterable[float]], State] = partial(tuple.__new__, State)
 """A State from its values in order, without the length check of `State._make`, which costs more than the rest."""
 

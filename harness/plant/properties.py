@@ -48,6 +48,7 @@ _STATE = {
     "stall_warning": Binding("aero/stall-warning"),
     "mass": Binding("inertia/mass-kg"),
     "fuel": Binding("inertia/total-fuel-kg"),
+    "fuel_used": Binding("propulsion/fuel-burned-kg"),
     "fuel_flow": Binding("propulsion/total-fuel-flow-kgps"),
     "thrust": Binding("propulsion/total-thrust-n"),
     "propeller_speed": Binding("propulsion/slowest-propeller-rpm", 2.0 * pi / 60.0),

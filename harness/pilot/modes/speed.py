@@ -1,6 +1,6 @@
 """SPD: speed by thrust lever (THR), by flight path (PITCH), or not at all, the lever set by hand (OFF)."""
 
-from harness.numerics import LowPass, clamp
+from harness.numerics import LowPass, clamp, quantised
 from harness.state import State
 from harness.world.atmosphere import GRAVITY
 
@@ -47,7 +47,7 @@ class SpeedMode:
         lever = self._integral + self._lever_gain * energy
         if 0.0 < lever < self.highest_lever or (lever <= 0.0) == (energy > 0.0):
             self._integral += self._lever_integral * energy * dt
-        self.lever = round(clamp(lever, 0.0, self.highest_lever), 4)
+        self.lever = quantised(clamp(lever, 0.0, self.highest_lever))
         return self.lever
 
     def path(self, state: State, target: float) -> float:
