@@ -8,7 +8,7 @@ class State(NamedTuple):
 
     Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres. On and just above
     the runway a plant renews all fields at every pilot step; elsewhere those of FAST, those of MEDIUM every
-    MEDIUM_PERIOD steps (4 Hz) and the others every SLOW_PERIOD (1 Hz).
+    MEDIUM_PERIOD steps (2 Hz) and the others every SLOW_PERIOD (1 Hz).
     """
 
     time: float  # simulated time since the first frame, s
@@ -49,7 +49,7 @@ class State(NamedTuple):
 
 FAST = State._fields[:3]
 MEDIUM = State._fields[3:21]
-MEDIUM_PERIOD = 6  # pilot steps
+MEDIUM_PERIOD = 12  # pilot steps
 SLOW_PERIOD = 24
 LOW = 100.0  # m above the ground
 BRISK = 15.0  # m/s: faster than taxiing

@@ -122,9 +122,7 @@ class FlightLog:
         modes, targets = pilot.modes, pilot.targets
         if not self._rows:
             self._mode_names, self._target_names = tuple(modes), tuple(targets)
-        self._rows.append(
-            (state, commands, pilot.phase, tuple(modes.values()), tuple(targets.values()))
-        )
+        self._rows.append((state, commands, pilot.phase, tuple(modes.values()), tuple(targets.values())))
 
     def _wheels(self, state: State) -> None:
         self._on_ground = state.main_on_ground

@@ -121,7 +121,9 @@ def item(condition: Condition, pilot: "Pilot", mass: float) -> Item:
         def following(state: State) -> float:
             return pilot.route.target_cas + reference.offset
 
-        return Item(condition, measure, following, lambda state: _compare(condition, measure(state), following(state)))
+        return Item(
+            condition, measure, following, lambda state: _compare(condition, measure(state), following(state))
+        )
     if condition.quantity == "flap" and reference.name:
         value = pilot.manual.flap(reference.name).position
     elif condition.quantity == "gear" and reference.name:

@@ -151,5 +151,7 @@ def _full_scale(gains: Mapping[str, float]) -> list[tuple[float, float]]:
     """(ground speed, full nose-wheel angle) from the gains called `steering-angle at 10 m/s`, by speed."""
     prefix = "steering-angle at "
     return sorted(
-        (parse(name.removeprefix(prefix), "speed"), angle) for name, angle in gains.items() if name.startswith(prefix)
+        (parse(name.removeprefix(prefix), "speed"), angle)
+        for name, angle in gains.items()
+        if name.startswith(prefix)
     )

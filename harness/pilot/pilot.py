@@ -26,6 +26,8 @@ from harness.world.local import LocalFrame
 
 FAST = frozenset({"time-in-phase", "vertical-speed", "pitch"})
 """Quantities renewed at every pilot step; what waits for another one is read when the outer loops turn."""
+ROUTE_TURNS = 2  # turns of the outer loops between two looks at the route, far from the next waypoint
+NEAR_WAYPOINT = 15000.0  # m: more than the lead of any turn
 LEVEL_REACHED = 30.0  # m: a level this near is captured however slowly it is approached
 DEFAULT_TIME_LIMIT = 7200.0  # s in one phase, where the manual says nothing
 OVERRUN_MARGIN = 5.0  # m past the end or the edge of the runway
@@ -81,6 +83,7 @@ class Pilot:
         self._checklists: Sequence[OpenChecklist] = ()
         self._deadline = inf
         self._period = 1
+        self._route_turns = 0
         self._airborne_route = False
         self._approaching = False
         self._bank = 0.0
@@ -295,7 +298,8 @@ class Pilot:
         self.level_error = self.route.level - state.pressure_altitude
         if plan is not None:
             self._pending = [
-                _ReadyStep(step, tuple(item(when, self, state.mass) for when in step.when)) for step in plan.steps
+                _ReadyStep(step, tuple(item(when, self, state.mass) for when in step.when))
+                for step in plan.steps
             ]
             self._checklists = [prepared(checklist, self, state.mass) for checklist in plan.checklists]
         self._watch()
@@ -348,7 +352,11 @@ class Pilot:
             self.route.update_approach(state)
         elif self._airborne_route:
             if self.route.waypoints_remaining:
-                self.route.update(state)
+                # Far from a waypoint nothing on the route changes fast.
+                self._route_turns -= 1
+                if self._route_turns <= 0 or self.route.remaining < NEAR_WAYPOINT:
+                    self._route_turns = ROUTE_TURNS
+                    self.route.update(state)
             else:
                 self.route.update_approach(state)
 
@@ -394,14 +402,19 @@ class Pilot:
             self._coordinate = 1.0
         self._wheel, self._rudder = quantised(wheel), quantised(rudder)
         route = self.route
-        self.vertical.aim(state, self.level_error, route.glide_slope, route.distance_to_threshold, self._wanted_path)
+        self.vertical.aim(
+            state, self.level_error, route.glide_slope, route.distance_to_threshold, self._wanted_path
+        )
 
     def _along_runway(self, state: State, dt: float) -> tuple[float, float]:
         """Return (nose wheel, rudder) that keep the centreline."""
         along, across = self._centreline.offset(state)
         if not state.main_on_ground:
             return 0.0, self.steering.align(state, self._centreline.heading)
-        if along > self._runway.length + OVERRUN_MARGIN or abs(across) > 0.5 * self._runway.width + OVERRUN_MARGIN:
+        if (
+            along > self._runway.length + OVERRUN_MARGIN
+            or abs(across) > 0.5 * self._runway.width + OVERRUN_MARGIN
+        ):
             end = along > self._runway.length + OVERRUN_MARGIN
             raise OverrunError(
                 f"left the {'end' if end else 'side'} of runway {self._runway.airport} {self._runway.designator}",

@@ -11,7 +11,7 @@ import jsbsim
 
 from harness.errors import GroundImpactError, InputError, NumericalError
 from harness.plant.messages import Messages
-from harness.plant.properties import COMMANDS, PROBES, PSF, STATE, Binding
+from harness.plant.properties import COMMANDS, PSF, STATE, Binding
 from harness.state import FAST, MEDIUM, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, close_to_ground
 from harness.units import FT, LB
 
@@ -92,13 +92,11 @@ class JSBSimPlant:
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air)
         self._getters = [self._getter(binding) for binding in STATE]
-        self._fast = self._getters[:_FAST]
+        _, self._vertical_speed, self._pitch = self._getters[:_FAST]
         self._medium = self._getters[:_MEDIUM]
         self._rest: tuple[float, ...] = ()
         self._close = False
         self._factors = [binding.factor for binding in STATE]
-        self._probes = [self._getter(binding) for binding in PROBES]
-        self._probe_factors = [binding.factor for binding in PROBES]
         self._setters = [[self._setter(name) for name in COMMANDS[field]] for field in Commands._fields]
         self._set_terrain = self._setter("position/terrain-elevation-asl-ft")
         self._written = Commands(*[nan] * len(Commands._fields))
@@ -126,10 +124,6 @@ class JSBSimPlant:
         self._rest = tuple(values[_FAST:])
         return new_state(values)
 
-    def probe(self) -> tuple[float, ...]:
-        """What a recorder wants besides State, in the order of `properties.PROBES`, SI."""
-        return tuple(map(mul, map(call, self._probes), self._probe_factors))
-
     def advance(self, commands: Commands) -> State:
         """Fly one pilot step under `commands`.
 
@@ -143,11 +137,11 @@ class JSBSimPlant:
         self._steps += 1
         if self._close or not self._steps % MEDIUM_PERIOD:
             return self._look_around()
-        time, climb, pitch = self._fast  # by hand: this runs at every pilot step
-        vertical_speed, attitude = climb() * FT, pitch()
+        # By hand: this runs at every pilot step.
+        vertical_speed, attitude = self._vertical_speed() * FT, self._pitch()
         if not -inf < vertical_speed + attitude < inf:
             raise self._not_finite()
-        return new_state((time(), vertical_speed, attitude, *self._rest))
+        return new_state((self._steps * self._step, vertical_speed, attitude, *self._rest))
 
     def _look_around(self) -> State:
         """Read more of State, and see whether it is still the state of an aircraft."""

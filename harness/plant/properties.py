@@ -79,22 +79,3 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     for field in Commands._fields
 }
 """The properties that each command is written to."""
-
-_ENGINES = range(4)
-_PROBES = {
-    **{f"shaft_power_{i + 1}": Binding(f"propulsion/engine-power-kw[{i}]", 1000.0) for i in _ENGINES},
-    **{
-        f"propeller_speed_{i + 1}": Binding(f"propulsion/engine[{i}]/propeller-rpm", 2 * pi / 60)
-        for i in _ENGINES
-    },
-    **{f"blade_angle_{i + 1}": Binding(f"propulsion/engine[{i}]/blade-angle", pi / 180) for i in _ENGINES},
-    **{f"tank_{i + 1}": Binding(f"propulsion/tank[{i}]/contents-lbs", LB) for i in range(7)},
-    "elevator_position": Binding("fcs/elevator-pos-rad"),
-    "rudder_position": Binding("fcs/rudder-pos-rad"),
-    "aileron_position": Binding("fcs/left-aileron-pos-rad"),
-    "stall_margin": Binding("aero/alpha-stall-margin-rad"),
-    "cg_x": Binding("inertia/cg-x-in", 0.0254),
-}
-PROBES: tuple[Binding, ...] = tuple(_PROBES.values())
-PROBE_NAMES: tuple[str, ...] = tuple(_PROBES)
-"""What the time history records besides State and Commands."""

@@ -87,7 +87,9 @@ def test_the_tanks_hold_the_certified_fuel() -> None:
     tanks = ET.parse(ROOT / "aircraft/gta/propulsion.xml").getroot().findall("tank")
     capacities = [float(tank.findtext("capacity") or "nan") for tank in tanks]
     assert sum(capacities) == pytest.approx(USABLE_FUEL * FUEL_DENSITY, abs=1.0)
-    declared = {p.text.strip(): float(p.attrib["value"]) for p in system("fuel").findall("property") if p.text}
+    declared = {
+        p.text.strip(): float(p.attrib["value"]) for p in system("fuel").findall("property") if p.text
+    }
     assert [declared[f"fuel/tank-capacity-kg[{i}]"] for i in range(7)] == capacities
     assert sorted(declared[f"fuel/tank-fill-order[{i}]"] for i in range(7)) == [1, 1, 1, 1, 2, 2, 3]
 
@@ -112,5 +114,7 @@ def test_each_jet_pushes_behind_its_own_propeller() -> None:
     engines = ET.parse(ROOT / "aircraft/gta/propulsion.xml").getroot().findall("engine")
     for index, (force, engine) in enumerate(zip(forces, engines, strict=True)):
         assert (force.findtext(".//property") or "").strip() == f"propulsion/jet-thrust-n[{index}]"
-        assert float(force.findtext("location/y") or "nan") == float(engine.findtext(".//location/y") or "nan")
+        assert float(force.findtext("location/y") or "nan") == float(
+            engine.findtext(".//location/y") or "nan"
+        )
         assert float(force.findtext("location/x") or "nan") > float(engine.findtext(".//location/x") or "nan")

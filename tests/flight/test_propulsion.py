@@ -13,8 +13,15 @@ FT = 0.3048
 class Stand:
     """The aircraft held still in moving air. Speeds m/s, heights m, thrust N."""
 
-    def __init__(self, speed: float = 0.0, height: float = 0.0, *, on_wheels: bool = True, lever: float = 0.0,
-                 rate: int = 120) -> None:
+    def __init__(
+        self,
+        speed: float = 0.0,
+        height: float = 0.0,
+        *,
+        on_wheels: bool = True,
+        lever: float = 0.0,
+        rate: int = 120,
+    ) -> None:
         self.rate = rate
         self.fdm = jsbsim.FGFDMExec(str(ROOT))
         self.fdm.set_debug_level(0)

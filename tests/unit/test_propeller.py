@@ -30,10 +30,15 @@ def tables() -> dict[str, Array]:
     return tables
 
 
-def governed_thrust(tables: dict[str, Array], speed: float, power: float, turning: float, density: float) -> float:
+def governed_thrust(
+    tables: dict[str, Array], speed: float, power: float, turning: float, density: float
+) -> float:
     """Thrust, N, at the blade angle where the propeller absorbs `power`; linear in the tables, as JSBSim is."""
     advance = speed / (turning * DIAMETER)
-    at = {name: np.array([np.interp(advance, ADVANCE, column) for column in table.T]) for name, table in tables.items()}
+    at = {
+        name: np.array([np.interp(advance, ADVANCE, column) for column in table.T])
+        for name, table in tables.items()
+    }
     wanted = power / (density * turning**3 * DIAMETER**5)
     governed = slice(int(np.argmin(at["C_POWER"])), int(np.searchsorted(ANGLES, math.radians(65.0))))
     thrust = np.interp(wanted, at["C_POWER"][governed], at["C_THRUST"][governed])

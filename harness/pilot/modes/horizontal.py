@@ -21,7 +21,11 @@ class HorizontalMode:
         self._laws = {  # time to close a cross-track error, time to close a track error, most bank
             "route": (gains["cross-track-time-constant"], self._turn_time, self._most_bank),
             "localizer": (gains["localizer-time-constant"], self._turn_time, gains["approach-bank-limit"]),
-            "align": (gains["align-time-constant"], gains["align-turn-time-constant"], gains["align-bank-limit"]),
+            "align": (
+                gains["align-time-constant"],
+                gains["align-turn-time-constant"],
+                gains["align-bank-limit"],
+            ),
         }
         self._steepest_intercept = gains["intercept-angle-limit"]
 
@@ -42,7 +46,9 @@ class HorizontalMode:
             return _bank(guidance.bearing_error, speed, self._turn_time, self._most_bank)
         line_time, turn_time, limit = self._laws[self.guidance]
         reach = max(speed, 30.0) * line_time
-        intercept = clamp(atan(guidance.cross_track / reach), -self._steepest_intercept, self._steepest_intercept)
+        intercept = clamp(
+            atan(guidance.cross_track / reach), -self._steepest_intercept, self._steepest_intercept
+        )
         return _bank(wrap(guidance.course - intercept - _track(state, speed)), speed, turn_time, limit)
 
 

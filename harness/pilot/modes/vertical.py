@@ -30,7 +30,13 @@ class VerticalMode:
         self.vertical_speed: float | None = None  # wanted by PATH instead of an angle
         self.path_angle = 0.0  # being flown towards
         self._pitch = 0.0
-        self._law = (0.0, 0.0, 0.0, SLOWEST, 0.0)  # path wanted, its bend a step, gain, speed, share of incidence
+        self._law = (
+            0.0,
+            0.0,
+            0.0,
+            SLOWEST,
+            0.0,
+        )  # path wanted, its bend a step, gain, speed, share of incidence
         self._incidence = 0.0
         self._step = step
         self._attitude_step = gains["pitch-rate"] * step
@@ -59,7 +65,9 @@ class VerticalMode:
             return 0.0
         return self.path_angle - state.vertical_speed / max(state.tas, SLOWEST)
 
-    def aim(self, state: State, level_error: float, slope: NeedleReading, threshold: float, path_by_speed: float) -> None:
+    def aim(
+        self, state: State, level_error: float, slope: NeedleReading, threshold: float, path_by_speed: float
+    ) -> None:
         """Renew the path that is wanted.
 
         `level_error`: height of the wanted level above the aircraft; `threshold`: distance to the runway, m.
@@ -77,7 +85,9 @@ class VerticalMode:
             wanted = path_by_speed
         elif self.angle == "flare":
             increment, gain = self._flare
-            height = max(state.height + self._flare_lead * state.vertical_speed, 0.0)  # soon, when pitch has answered
+            height = max(
+                state.height + self._flare_lead * state.vertical_speed, 0.0
+            )  # soon, when pitch has answered
             wanted = -(height / self._flare_time + self._touchdown_sink) / speed
         else:
             wanted = float(self.angle)
