@@ -5,7 +5,7 @@ from math import pi
 
 def clamp(value: float, low: float, high: float) -> float:
     """`value` held between `low` and `high`."""
-    return low if value < low else high if value > high else value
+    return low if value < low else min(value, high)
 
 
 def wrap(angle: float) -> float:
@@ -39,9 +39,7 @@ class LowPass:
         self.tau = tau
         self.value = value
 
-    def reset(self, value: float) -> None:
-        self.value = value
-
     def update(self, target: float, dt: float) -> float:
+        """Let `dt` seconds pass with the input at `target`, and return the output."""
         self.value += (target - self.value) * dt / (self.tau + dt)
         return self.value

@@ -87,7 +87,10 @@ QUANTITIES: dict[str, str] = {
     "heading-error": "angle",
     "centreline-deviation": "length",
 }
-"""What a condition can look at, with its kind of unit. `level-above`: how far the wanted level lies above the aircraft."""
+"""What a condition can look at, with its kind of unit.
+
+`level-above` is how far the wanted level lies above the aircraft, `level-below` the opposite.
+"""
 
 TARGETS: dict[str, str] = {"leg-speed": "speed"}
 """Names a mode's argument can follow besides the speeds of the flight manual."""

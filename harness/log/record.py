@@ -1,7 +1,7 @@
 """Watches a flight and remembers it. Made to cost next to nothing between two records."""
 
 from collections.abc import Mapping
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray

@@ -2,21 +2,46 @@
 
 from collections.abc import Callable, Mapping
 from math import hypot
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, Protocol
 
+from harness.pilot.control import ControlSystem
+from harness.pilot.route import NavigationComputer
 from harness.plan import Checklist, Condition
 from harness.plan_reader import parse_reference
 from harness.state import State
 from harness.units import show
 from harness.vocabulary import QUANTITIES
 
-if TYPE_CHECKING:
-    from harness.pilot.pilot import Pilot
+
+class Cockpit(Protocol):
+    """What a pilot looks at when reading a checklist, besides the aircraft's state."""
+
+    phase_begin: float
+    level_error: float
+
+    @property
+    def route(self) -> NavigationComputer:
+        """Where the aircraft is on its route."""
+        ...
+
+    @property
+    def control(self) -> ControlSystem:
+        """What is selected and aimed at."""
+        ...
+
+    def level_captured(self, state: State) -> bool:
+        """Whether the wanted level is near enough to round out towards it."""
+        ...
+
+    def heading_error(self, state: State) -> float:
+        """Angle from the runway's direction to the nose."""
+        ...
+
 
 Number = Callable[[State], float]
 Test = Callable[[State], bool]
 
-MEASURES: Mapping[str, Callable[["Pilot"], Number]] = {
+MEASURES: Mapping[str, Callable[[Cockpit], Number]] = {
     "time-in-phase": lambda pilot: lambda state: state.time - pilot.phase_begin,
     "cas": lambda pilot: lambda state: state.cas,
     "ground-speed": lambda pilot: lambda state: hypot(state.velocity_north, state.velocity_east),
@@ -34,18 +59,18 @@ MEASURES: Mapping[str, Callable[["Pilot"], Number]] = {
     "level-above": lambda pilot: lambda state: pilot.level_error,
     "level-below": lambda pilot: lambda state: -pilot.level_error,
     "level-captured": lambda pilot: lambda state: float(pilot.level_captured(state)),
-    "speed-error": lambda pilot: lambda state: abs(pilot.target_cas - state.cas),
+    "speed-error": lambda pilot: lambda state: abs(pilot.control.target_cas - state.cas),
     "waypoints-remaining": lambda pilot: lambda state: pilot.route.waypoints_remaining,
     "distance-to-waypoint": lambda pilot: lambda state: pilot.route.remaining,
     "distance-to-threshold": lambda pilot: lambda state: pilot.route.distance_to_threshold,
-    "distance-past-threshold": lambda pilot: lambda state: pilot.runway_offset(state)[0],
+    "distance-past-threshold": lambda pilot: lambda state: pilot.control.runway.offset(state)[0],
     "localizer-captured": lambda pilot: lambda state: float(abs(pilot.route.localizer.dots) < 1.0),
     "localizer-dots": lambda pilot: lambda state: abs(pilot.route.localizer.dots),
     "glide-slope-dots": lambda pilot: lambda state: pilot.route.glide_slope.dots,
     "glide-slope-alive": lambda pilot: lambda state: float(pilot.route.glide_slope.received),
-    "taxi-distance": lambda pilot: lambda state: pilot.taxi_distance,
+    "taxi-distance": lambda pilot: lambda state: pilot.control.taxi_distance,
     "heading-error": lambda pilot: lambda state: abs(pilot.heading_error(state)),
-    "centreline-deviation": lambda pilot: lambda state: abs(pilot.runway_offset(state)[1]),
+    "centreline-deviation": lambda pilot: lambda state: abs(pilot.control.runway.offset(state)[1]),
 }
 """How the pilot measures each word of `vocabulary.QUANTITIES`, SI; yes is 1, no is 0."""
 
@@ -107,12 +132,12 @@ class OpenChecklist:
         return [entry for entry in self.items if not entry.holds(state)]
 
 
-def prepared(checklist: Checklist, pilot: "Pilot", mass: float) -> OpenChecklist:
+def prepared(checklist: Checklist, pilot: Cockpit, mass: float) -> OpenChecklist:
     """Look up the numbers of a checklist for an aircraft of `mass` kg."""
     return OpenChecklist(checklist.to, tuple(item(condition, pilot, mass) for condition in checklist.items))
 
 
-def item(condition: Condition, pilot: "Pilot", mass: float) -> Item:
+def item(condition: Condition, pilot: Cockpit, mass: float) -> Item:
     """Look up the numbers of one condition."""
     measure = MEASURES[condition.quantity](pilot)
     reference = parse_reference(condition.required, QUANTITIES[condition.quantity])
@@ -125,11 +150,11 @@ def item(condition: Condition, pilot: "Pilot", mass: float) -> Item:
             condition, measure, following, lambda state: _compare(condition, measure(state), following(state))
         )
     if condition.quantity == "flap" and reference.name:
-        value = pilot.manual.flap(reference.name).position
+        value = pilot.control.manual.flap(reference.name).position
     elif condition.quantity == "gear" and reference.name:
         value = float(reference.name == "down")
     elif reference.name:
-        value = pilot.named_speed(reference.name, mass) + reference.offset
+        value = pilot.control.named_speed(reference.name, mass) + reference.offset
     else:
         value = reference.offset
     return Item(condition, measure, lambda state: value, _test(condition, measure, value))

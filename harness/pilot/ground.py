@@ -3,6 +3,8 @@
 from collections.abc import Mapping, Sequence
 from math import atan, atan2, cos, hypot, inf, sin, sqrt
 
+from harness.errors import OverrunError
+from harness.navigation.database import Runway
 from harness.numerics import clamp, wrap
 from harness.state import State
 from harness.units import parse
@@ -11,6 +13,7 @@ from harness.world.local import LocalFrame, Point, filleted
 STOP_DECELERATION = 0.5  # m/s2, gentle; the taxi speed falls along this towards a turn or the end of the path
 LATERAL_ACCELERATION = 0.6  # m/s2 in a turn: what taxiing crews accept
 LOOK_AHEAD = 60  # path points (metres) over which the speed is planned
+OVERRUN_MARGIN = 5.0  # m past the end or the edge of the runway
 SLIP_SPEED = 10.0  # m/s: from here on the track is steered, below it the heading
 NEAREST_WINDOW = 30  # path points searched for the nearest one, so that a path may cross itself
 
@@ -48,12 +51,7 @@ class TaxiPath:
             if self._last - i < 3
             else float(self._last - i)
         )
-        return error, self._speeds[i], left
-
-    @property
-    def finished(self) -> bool:
-        """The last point has been reached."""
-        return self._nearest >= self._last - 1
+        return error, 0.0 if i >= self._last - 1 else self._speeds[i], left
 
 
 def _speeds(points: list[Point], top: float) -> list[float]:
@@ -74,17 +72,33 @@ def _speeds(points: list[Point], top: float) -> list[float]:
 
 
 class Centreline:
-    """A runway's centreline on a flat map: where the aircraft is along and across it."""
+    """The runway in use on a flat map: where the aircraft is along and across it."""
 
-    def __init__(self, latitude: float, longitude: float, heading: float) -> None:
-        self._frame = LocalFrame(latitude, longitude)
-        self._cos, self._sin = cos(heading), sin(heading)
-        self.heading = heading
+    def __init__(self, runway: Runway) -> None:
+        self._frame = LocalFrame(runway.latitude, runway.longitude)
+        self.heading = runway.true_heading
+        self._cos, self._sin = cos(self.heading), sin(self.heading)
+        self._runway = runway
 
     def offset(self, state: State) -> tuple[float, float]:
         """Return (metres past the threshold, metres right of the centreline)."""
         north, east = self._frame.point(state.latitude, state.longitude)
         return north * self._cos + east * self._sin, east * self._cos - north * self._sin
+
+    def check(self, state: State, phase: str) -> None:
+        """Raise OverrunError when the aircraft has left the runway."""
+        along, across = self.offset(state)
+        length, half_width = self._runway.length, 0.5 * self._runway.width
+        past_end = along > length + OVERRUN_MARGIN
+        if past_end or abs(across) > half_width + OVERRUN_MARGIN:
+            raise OverrunError(
+                f"left the {'end' if past_end else 'side'} of runway {self._runway.airport} {self._runway.designator}",
+                time=state.time,
+                phase=phase,
+                achieved=f"{along:.0f} m past the threshold, {across:.0f} m right of the centreline",
+                required=f"within {length:.0f} m and {half_width:.0f} m",
+                knob="less mass, less wind, a longer runway, or more brake",
+            )
 
 
 class GroundSteering:
@@ -109,11 +123,11 @@ class GroundSteering:
         """Forget the crosswind trim."""
         self._trim = 0.0
 
-    def pursue(self, state: State, bearing_error: float, look_ahead: float) -> tuple[float, float]:
-        """Return (nose wheel, rudder) towards a point `look_ahead` metres away."""
+    def pursue(self, state: State, bearing_error: float, look_ahead: float) -> float:
+        """Return the nose wheel towards a point `look_ahead` metres away."""
         angle = atan(2.0 * self._wheelbase * sin(clamp(bearing_error, -1.5, 1.5)) / look_ahead)
         speed = hypot(state.velocity_north, state.velocity_east)
-        return clamp(angle / self._steering_angle(speed), -1.0, 1.0), 0.0
+        return clamp(angle / self._steering_angle(speed), -1.0, 1.0)
 
     def hold_line(self, state: State, course: float, across: float, dt: float) -> tuple[float, float]:
         """Return (nose wheel, rudder) that bring the aircraft onto the centreline and keep it there."""

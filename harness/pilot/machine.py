@@ -11,15 +11,15 @@ START = "TXY.out"
 END = "END"
 
 
-class _PhaseState(NestedState):  # type: ignore[misc]
+class _PhaseState(NestedState):
     separator = "."
 
 
-class _PhaseMachine(HierarchicalMachine):  # type: ignore[misc]
+class _PhaseMachine(HierarchicalMachine):
     state_cls = _PhaseState
 
 
-class _DrawnPhaseMachine(HierarchicalGraphMachine):  # type: ignore[misc]
+class _DrawnPhaseMachine(HierarchicalGraphMachine):
     state_cls = _PhaseState
 
 
@@ -66,4 +66,5 @@ def diagram() -> str:
     """The phase graph as Mermaid text, drawn from the machine itself."""
     model = PhaseGraph.__new__(PhaseGraph)
     machine = _DrawnPhaseMachine(model=model, graph_engine="mermaid", **_arguments())
-    return str(machine.get_combined_graph().source)
+    graph: Any = machine.get_combined_graph()
+    return str(graph.source)

@@ -1,9 +1,9 @@
 """A flat map around a point, for taxiways and runways: good to a centimetre within 3 km."""
 
+from itertools import pairwise
 from math import atan2, cos, hypot, radians, sin, sqrt
 
-SEMI_MAJOR = 6_378_137.0  # m. Source: NIMA TR-8350.2, table 3.1
-FLATTENING = 1 / 298.257223563
+from harness.world.earth import ECCENTRICITY_SQUARED, SEMI_MAJOR_AXIS
 
 Point = tuple[float, float]
 
@@ -14,10 +14,10 @@ class LocalFrame:
     def __init__(self, latitude: float, longitude: float) -> None:
         self.latitude = latitude
         self.longitude = longitude
-        e2 = FLATTENING * (2.0 - FLATTENING)
+        e2 = ECCENTRICITY_SQUARED
         w = 1.0 - e2 * sin(latitude) ** 2
-        self._north = SEMI_MAJOR * (1.0 - e2) / (w * sqrt(w))  # meridian radius of curvature
-        self._east = SEMI_MAJOR / sqrt(w) * cos(latitude)  # radius of the parallel
+        self._north = SEMI_MAJOR_AXIS * (1.0 - e2) / (w * sqrt(w))  # meridian radius of curvature
+        self._east = SEMI_MAJOR_AXIS / sqrt(w) * cos(latitude)  # radius of the parallel
 
     def point(self, latitude: float, longitude: float) -> Point:
         """Return (north, east) in metres."""
@@ -58,7 +58,7 @@ def _arc(before: Point, corner: Point, after: Point, radius: float, spacing: flo
 
 def _spaced(path: list[Point], spacing: float) -> list[Point]:
     points = [path[0]]
-    for a, b in zip(path, path[1:], strict=False):
+    for a, b in pairwise(path):
         length = _distance(a, b)
         count = int(length / spacing)
         points.extend(

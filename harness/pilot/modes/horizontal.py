@@ -1,5 +1,6 @@
 """HP: bank (ATT), a track (PATH), or guidance along route, localizer or runway (NAV)."""
 
+from collections.abc import Mapping
 from math import atan, atan2, hypot
 
 from harness.numerics import clamp, wrap
@@ -11,7 +12,7 @@ from harness.world.atmosphere import GRAVITY
 class HorizontalMode:
     """Gives the bank angle to hold, rad."""
 
-    def __init__(self, gains: dict[str, float]) -> None:
+    def __init__(self, gains: Mapping[str, float]) -> None:
         self.sub_mode = "ATT"
         self.guidance = ""  # of NAV
         self.bank = 0.0  # wanted by ATT
@@ -28,10 +29,6 @@ class HorizontalMode:
             ),
         }
         self._steepest_intercept = gains["intercept-angle-limit"]
-
-    def select(self, sub_mode: str, state: State) -> None:
-        """Change the sub-mode. There is nothing to carry over: the aircraft limits the roll rate."""
-        self.sub_mode = sub_mode
 
     def update(self, state: State, guidance: Guidance) -> float:
         """Return the bank angle to hold, rad."""

@@ -1,5 +1,7 @@
 """SPD: speed by thrust lever (THR), by flight path (PITCH), or not at all, the lever set by hand (OFF)."""
 
+from collections.abc import Mapping
+
 from harness.numerics import LowPass, clamp, quantised
 from harness.state import State
 from harness.world.atmosphere import GRAVITY
@@ -14,7 +16,7 @@ class SpeedMode:
     principles, AIAA 83-2239.
     """
 
-    def __init__(self, gains: dict[str, float]) -> None:
+    def __init__(self, gains: Mapping[str, float]) -> None:
         self.sub_mode = "OFF"
         self.lever = 0.0  # set by hand
         self.highest_lever = 1.0

@@ -72,7 +72,7 @@ class VerticalMode:
 
         `level_error`: height of the wanted level above the aircraft; `threshold`: distance to the runway, m.
         """
-        speed = state.tas if state.tas > SLOWEST else SLOWEST
+        speed = max(state.tas, SLOWEST)
         increment, gain = self._path
         if self.sub_mode == "NAV":
             if self.guidance == "level":
@@ -101,7 +101,7 @@ class VerticalMode:
         wanted, bend, gain, speed, share = self._law
         path = self.path_angle
         missing = wanted - path
-        path += bend if missing > bend else -bend if missing < -bend else missing
+        path += bend if missing > bend else -bend if missing < -bend else missing  # noqa: FURB136  twice as fast
         self.path_angle = path
         climb = vertical_speed / speed
         incidence = self._incidence
