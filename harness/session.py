@@ -97,6 +97,7 @@ class Session:
             log,
             identity=self._identity(rate),
             fixes={leg.name: (leg.fix.latitude, leg.fix.longitude) for leg in self.mission.legs},
+            last_waypoint=[leg.name for leg in self.mission.legs if leg.part == "route"][-1],
             mission_text=self.mission.text,
             wall_time=wall_time,
             failure=reason,

@@ -16,14 +16,13 @@ _STATE_UNITS = {
     "m": "altitude pressure_altitude height",
     "m/s": "cas tas velocity_north velocity_east vertical_speed",
     "N": "thrust",
-    "kg": "mass fuel",
+    "kg": "mass fuel fuel_used",
     "kg/s": "fuel_flow",
     "Pa": "pressure",
     "K": "temperature",
     "1": "mach load_factor main_on_ground nose_on_ground flap gear stall_warning",
 }
 _OTHER_UNITS = {
-    "kg": "fuel_used",
     "m": "distance target_level target_level_error target_cross_track target_distance_to_go",
     "m/s": "target_cas",
     "rad": "command_pitch command_bank",

@@ -22,20 +22,23 @@ def conclude(
     *,
     identity: Mapping[str, object],
     fixes: Mapping[str, tuple[float, float]],
+    last_waypoint: str,
     mission_text: str,
     wall_time: float,
     failure: str,
 ) -> Run:
     """Make the run out of what was recorded.
 
-    `identity` goes into the summary as it is; `fixes` are the waypoints' latitudes and longitudes (rad);
+    `identity` goes into the summary as it is; `fixes` are the waypoints' latitudes and longitudes (rad),
+    `last_waypoint` is the name of the route's last one, before the arrival;
     `wall_time` is in seconds; `failure` says why the flight was not completed, empty if it was.
     """
     history = log.history()
     passages = _passages(log, history, fixes)
     simulated = float(history["time"][-1]) if len(history["time"]) else 0.0
     summary: dict[str, Any] = {"schema": SCHEMA, **identity, "completed": not failure, "reason": failure}
-    summary |= _flight(log, history, passages)
+    last = [passage for passage in passages if passage.name == last_waypoint]
+    summary |= _flight(log, history, last)
     summary["phases"] = _phases(log.events, history)
     summary |= {
         "simulated_time_s": simulated,
@@ -46,7 +49,7 @@ def conclude(
     return Run(history, tuple(log.events), passages, _finite(summary), mission_text)
 
 
-def _flight(log: FlightLog, history: History, passages: tuple[Passage, ...]) -> dict[str, float | None]:
+def _flight(log: FlightLog, history: History, last: list[Passage]) -> dict[str, float | None]:
     """Times, distances and masses; None for what the flight did not come to."""
     off_blocks, release, lift_off, touchdown = (
         log.moments.get(name) for name in ("off blocks", "brake release", "lift-off", "touchdown")
@@ -58,7 +61,7 @@ def _flight(log: FlightLog, history: History, passages: tuple[Passage, ...]) -> 
         "touchdown_s": _time(touchdown),
         "flight_time_s": _between(_time(release), _time(touchdown)),
         "block_time_s": _between(_time(off_blocks), end),
-        "time_to_last_waypoint_s": _between(_time(release), passages[-1].time if passages else None),
+        "time_to_last_waypoint_s": _between(_time(release), last[0].time if last else None),
         "takeoff_mass_kg": release.mass if release else None,
         "landing_mass_kg": touchdown.mass if touchdown else None,
         "distance_km": None,

@@ -150,7 +150,7 @@ class _Checker:
                     yield self._fault(path, what, "V1 <= VR <= V2")
 
     def _airspeed(self, leg: Leg) -> Iterator[InputError]:
-        limits, path = self.manual.limits, f"route/waypoint[{leg.name}]/speed"
+        limits, path = self.manual.limits, f"{leg.path}/speed"
         speed = self.envelope.airspeeds(leg.speed, leg.level)
         slowest = self.envelope.slowest
         said = f"{leg.name}: {leg.speed} at {leg.level}"
@@ -170,7 +170,7 @@ class _Checker:
             )
 
     def _level(self, leg: Leg) -> Iterator[InputError]:
-        path, highest = f"route/waypoint[{leg.name}]/level", self.manual.limits["maximum-altitude"]
+        path, highest = f"{leg.path}/level", self.manual.limits["maximum-altitude"]
         if leg.level.altitude > highest:
             what = f"{leg.name}: {leg.level} is above the maximum altitude of {self.manual.aircraft}"
             yield self._fault(path, what, f"at most {show(highest, 'ft')}")
@@ -191,7 +191,7 @@ class _Checker:
     def _route(self) -> Iterator[InputError]:
         before, start = "the departure runway", Position(*self.departure.point(self.departure.length))
         for leg in self.mission.legs:
-            path = f"route/waypoint[{leg.name}]"
+            path = leg.path
             bearing, arriving, distance = earth.inverse(*start, leg.fix.latitude, leg.fix.longitude)
             if distance < SHORTEST_LEG:
                 what = f"{leg.name} lies where {before} does: the leg has no length"
@@ -212,7 +212,7 @@ class _Checker:
         last, runway = self.mission.legs[-1], self.arrival
         name = f"{runway.airport} {runway.designator}"
         along = -runway.offset(last.fix.latitude, last.fix.longitude)[0]
-        path = f"route/waypoint[{last.name}]"
+        path = last.path
         if along < NEAREST_LAST_WAYPOINT:
             where = f"{show(along, 'NM', 1)} before" if along > 0 else "beyond"
             what = f"{last.name}, the last waypoint, lies {where} the threshold of {name}: no room to line up"

@@ -12,6 +12,7 @@ STANDARD_QNH = 101325.0
 
 Mode = Literal["homing", "tracking", "direct"]
 Turn = Literal["fly-by", "fly-over"]
+Part = Literal["route", "arrival"]
 
 
 class Position(NamedTuple):
@@ -50,6 +51,12 @@ class Leg(NamedTuple):
     turn: Turn
     actions: tuple[Step, ...]
     line: int
+    part: Part = "route"  # of the mission's own route, or of the arrival to the runway
+
+    @property
+    def path(self) -> str:
+        """Where the leg stands in the mission file."""
+        return f"{self.part}/waypoint[{self.name}]"
 
 
 class Loading(NamedTuple):

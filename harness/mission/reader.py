@@ -84,6 +84,7 @@ class _Reader:
         aircraft = self.source.one(root, "aircraft")
         environment = self.source.one(root, "environment", needed=False)
         route = self.source.one(root, "route")
+        arrival = self.source.one(root, "arrival")
         phases = list(children(root, "phase"))
         self.source.distinct(phases, "name")
         return Mission(
@@ -94,8 +95,8 @@ class _Reader:
             loading=self._loading(self.source.one(root, "loading")),
             environment=self._environment(environment),
             departure=self._departure(self.source.one(root, "departure")),
-            legs=self._legs(route),
-            arrival=self._arrival(self.source.one(root, "arrival")),
+            legs=self._legs(route, arrival),
+            arrival=self._arrival(arrival),
             phases={phase.get("name", ""): read_phase(self.source, phase) for phase in phases},
             source_path=self.source.path,
             text=etree.tostring(root.getroottree(), encoding="unicode"),
@@ -192,8 +193,10 @@ class _Reader:
             not_found(self.source, error, element, "runway")
             return None
 
-    def _legs(self, route: Element | None) -> tuple[Leg, ...]:
-        waypoints = [] if route is None else list(children(route, "waypoint"))
+    def _legs(self, *parts: Element | None) -> tuple[Leg, ...]:
+        waypoints = [
+            waypoint for part in parts if part is not None for waypoint in children(part, "waypoint")
+        ]
         self.source.distinct(waypoints, "name")
         return tuple(read_leg(self.source, self.database, waypoint) for waypoint in waypoints)
 

@@ -16,6 +16,7 @@ NO_LEVEL = Level("ALT", NAN)
 
 def read_leg(source: Source, database: Database, element: Element) -> Leg:
     """The leg in a <waypoint>, faults noted in `source`."""
+    parent = element.getparent()
     mode = cast(Mode, element.get("mode"))  # the schema has checked these two
     station = _station(source, database, element)
     course = _course(source, element, mode, station)
@@ -30,6 +31,7 @@ def read_leg(source: Source, database: Database, element: Element) -> Leg:
         turn=turn,
         actions=tuple(read_step(source, action) for action in children(element, "action")),
         line=source.place(element)[1] or 1,
+        part="arrival" if parent is not None and parent.tag == "arrival" else "route",
     )
 
 

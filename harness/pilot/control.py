@@ -180,7 +180,7 @@ class ControlSystem:
         if speed.sub_mode == "PITCH":
             path = speed.path(state, self.target_cas)
         elif speed.sub_mode == "THR" and not self._taxiing:
-            speed.update(state, self.target_cas, self.vertical.path_error(state), dt)
+            speed.update(state, self.target_cas, self.vertical.path_angle, dt)
         self.vertical.aim(state, level_error, route.glide_slope, route.distance_to_threshold, path)
         self._steer(state, dt)
 

@@ -10,8 +10,10 @@ from harness.world.atmosphere import GRAVITY
 class SpeedMode:
     """Controls calibrated airspeed.
 
-    Both laws work on the rate of change of CAS: the speed error asks for one (limited), and the difference to the
-    measured one is an amount of specific energy that the lever (THR) or the flight path (PITCH) has to supply.
+    Both laws look at the specific excess energy rate, which is the climb angle plus the acceleration in g: what the
+    thrust gives beyond the drag. It changes with lever and configuration only, not when speed is traded for height, so
+    it can be filtered slowly. PITCH spends it: what the wanted acceleration leaves becomes the path. THR supplies it:
+    the lever moves until it covers the wanted acceleration and the wanted path.
     Source of the idea: A. A. Lambregts, Vertical flight path and speed control autopilot design using total energy
     principles, AIAA 83-2239.
     """
@@ -24,11 +26,11 @@ class SpeedMode:
         self._most_acceleration = gains["speed-acceleration"]
         self._lever_gain = gains["lever-per-energy"]
         self._lever_integral = gains["lever-per-energy"] / gains["lever-integral-time"]
-        self._cas_rate = LowPass(gains["speed-rate-filter"])
-        self._cas = -1.0
-        self._integral = 0.0
         self._climb = (gains["least-climb-angle"], gains["climb-angle-limit"])
         self._descent = (-gains["descent-angle-limit"], -gains["least-descent-angle"])
+        self._excess = LowPass(gains["excess-energy-filter"])
+        self._cas = -1.0
+        self._integral = 0.0
 
     def select(self, sub_mode: str) -> None:
         """Change the sub-mode; THR takes over the lever where it stands."""
@@ -37,15 +39,16 @@ class SpeedMode:
         self.sub_mode = sub_mode
 
     def observe(self, state: State, dt: float) -> None:
-        """Keep the rate of change of the airspeed up to date."""
+        """Keep the excess energy up to date; `dt` is the time since the last call, s."""
         if self._cas < 0.0:
             self._cas = state.cas
-        self._cas_rate.update((state.cas - self._cas) / dt, dt)
+        rate = (state.cas - self._cas) / dt
         self._cas = state.cas
+        self._excess.update(state.vertical_speed / max(state.tas, 1.0) + _in_g(rate, state), dt)
 
-    def update(self, state: State, target: float, path_error: float, dt: float) -> float:
-        """THR: the lever. `path_error`: climb asked for beyond the present one, rad; the lever supplies it too."""
-        energy = self._energy_wanted(state, target) + clamp(path_error, -0.05, 0.05)
+    def update(self, state: State, target: float, path: float, dt: float) -> float:
+        """THR: return the lever for the CAS `target` (m/s) on the flight `path` (rad)."""
+        energy = self._acceleration(state, target) + path - self._excess.value
         lever = self._integral + self._lever_gain * energy
         if 0.0 < lever < self.highest_lever or (lever <= 0.0) == (energy > 0.0):
             self._integral += self._lever_integral * energy * dt
@@ -53,17 +56,19 @@ class SpeedMode:
         return self.lever
 
     def path(self, state: State, target: float) -> float:
-        """PITCH: the flight-path angle (rad) that brings the speed to `target` with the thrust there is.
+        """PITCH: return the flight path (rad) that brings the CAS to `target` with the thrust there is.
 
         It never gives up the climb to gain speed nor the descent to lose it.
         """
-        path = state.vertical_speed / max(state.tas, 1.0)
         low, high = self._climb if self.lever > 0.0 else self._descent
-        return clamp(path - self._energy_wanted(state, target), low, high)
+        return clamp(self._excess.value - self._acceleration(state, target), low, high)
 
-    def _energy_wanted(self, state: State, target: float) -> float:
-        """Acceleration still missing, in g along the path."""
-        wanted = clamp(
-            self._speed_gain * (target - state.cas), -self._most_acceleration, self._most_acceleration
-        )
-        return (wanted - self._cas_rate.value) * state.tas / max(state.cas, 1.0) / GRAVITY
+    def _acceleration(self, state: State, target: float) -> float:
+        """Wanted along the path, in g."""
+        most = self._most_acceleration
+        return _in_g(clamp(self._speed_gain * (target - state.cas), -most, most), state)
+
+
+def _in_g(rate: float, state: State) -> float:
+    """Acceleration in g along the path from a rate of change of CAS."""
+    return rate * state.tas / max(state.cas, 1.0) / GRAVITY

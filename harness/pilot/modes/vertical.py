@@ -59,12 +59,6 @@ class VerticalMode:
             self._incidence = state.pitch - self.path_angle
         self.sub_mode = sub_mode
 
-    def path_error(self, state: State) -> float:
-        """Climb asked for beyond the present one, rad."""
-        if self.sub_mode == "ATT":
-            return 0.0
-        return self.path_angle - state.vertical_speed / max(state.tas, SLOWEST)
-
     def aim(
         self, state: State, level_error: float, slope: NeedleReading, threshold: float, path_by_speed: float
     ) -> None:
