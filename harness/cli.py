@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import signal
 import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -12,6 +13,7 @@ from harness.errors import FlightError, HarnessError, InputError
 if TYPE_CHECKING:
     from harness.log import Run
 
+OUTSIDE = 1
 INTERRUPTED = 130
 DEFAULT_OUT = "runs"
 RATES = (120, 240, 480)
@@ -26,7 +28,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command. Exit codes: 0 done, 2 wrong input, 3 flight not completed, 130 interrupted."""
+    """Run one command. Exit codes: 0 done, 1 a bar not met, 2 wrong input, 3 flight not completed, 130 interrupted."""
     words = sys.argv[1:] if arguments is None else list(arguments)
     try:
         chosen = parser().parse_args(words)
@@ -73,6 +75,20 @@ def parser() -> Parser:
     add_json(checking)
     checking.set_defaults(run=check)
 
+    validating = commands.add_parser(
+        "validate",
+        help="fly missions and hold them against their bars",
+        description="Fly missions and print each quantity with its bar; exit code 1 if one is outside.",
+    )
+    validating.add_argument(
+        "missions",
+        metavar="MISSION",
+        nargs="*",
+        help="names from `harness list`, or mission files (default: cologne-munich, both readings, and circuits)",
+    )
+    add_json(validating)
+    validating.set_defaults(run=validate)
+
     listing = commands.add_parser(
         "list", help="missions, aircraft and scripts", description="What can be named."
     )
@@ -105,6 +121,9 @@ def fly(chosen: argparse.Namespace) -> int:
     from harness.session import Session
 
     session = Session(chosen.mission, chosen.overrides)
+    signal.signal(
+        signal.SIGTERM, signal.default_int_handler
+    )  # asked to end, it keeps what was flown, as for Ctrl-C
     console = Console(sys.stderr)
     try:
         run, stopped = session.fly(
@@ -132,6 +151,27 @@ def check(chosen: argparse.Namespace) -> int:
     else:
         print(f"{mission.source_path}: {mission.name} is fit to fly, as far as can be known without flying.")
     return 0
+
+
+def validate(chosen: argparse.Namespace) -> int:
+    """`harness validate`."""
+    from harness import validation
+    from harness.console import Console
+
+    verdicts = []
+    for trial in validation.trials(chosen.missions):
+        console = Console(sys.stderr)
+        try:
+            verdict = validation.validate(trial, console)
+        finally:
+            console.close()
+        verdicts.append(verdict)
+        if not chosen.json:
+            print(validation.table(verdict), flush=True)
+    inside = all(verdict.inside for verdict in verdicts)
+    if chosen.json:
+        print_json({"inside": inside, "flights": [validation.as_data(verdict) for verdict in verdicts]})
+    return 0 if inside else OUTSIDE
 
 
 def show_list(chosen: argparse.Namespace) -> int:

@@ -61,12 +61,12 @@ class Session:
         Returns the run and what stopped it early, if anything did. Raises
         OutputError, before flying if `out` cannot be written.
         """
-        from harness.analysis.plots import draw_all
-
         if out is None:
             return self._fly(rate, realtime, progress)
         with RunFolder(out, self.mission.name) as folder:
             run, stopped = self._fly(rate, realtime, progress)
+            from harness.analysis.plots import draw_all  # after the flight: it takes a while to load
+
             write_run(run, folder.path)
             try:
                 draw_all(run, folder.path)

@@ -25,10 +25,11 @@ HOLD = 10.0  # s inside the tolerance: captured, and not passing through
 SHORTEST = 60.0  # s; what lasts no longer is over before it has settled, and is judged only if captured
 NEW_SPEED = 0.5 * KT  # a wanted speed that changes by more from one record to the next is a new one
 SETTLED = 60.0  # s after both captures, or after a turn: what still moves then, moves for ever
+CALM = 20.0  # s, likewise in a climb or descent, which are shorter
 WINDOW = 120.0  # s of steady flight looked at together, its trend taken out
+SHORTEST_WINDOW = 15.0  # s
 WINGS_LEVEL = 3 * DEG
 LEVER_DEADBAND = 0.02
-LOAD_FACTOR_DEADBAND = 0.05
 
 
 class Deviation(NamedTuple):
@@ -88,7 +89,10 @@ def level_flight(run: Run) -> LevelFlight:
     """Measure the flight in the mode that holds a level (VP NAV level)."""
     history = run.history
     time, wanted = history["time"], history["target_cas"]
-    levels, speeds, hunting, swings = [], [], [0.0], [(0.0, 0.0, 0.0)]
+    levels: list[Hold] = []
+    speeds: list[Hold] = []
+    hunting: list[float] = []
+    swings: list[tuple[float, float, float]] = []
     for span in _level_spans(run):
         found = deviation(time[span.rows], history["target_level_error"][span.rows], LEVEL_TOLERANCE)
         if not isnan(found.captured) or span.end - span.begin > SHORTEST:
@@ -102,32 +106,33 @@ def level_flight(run: Run) -> LevelFlight:
                 speeds.append(Hold(part.begin, part.end, float(wanted[part.first]), speed))
             if isnan(speed.captured):
                 continue
-            since = np.flatnonzero((time >= speed.captured) & (time <= part.end))
+            since = slice(int(np.searchsorted(time, speed.captured)), part.last)
             if part.end - speed.captured > SHORTEST:
-                lever = history["command_throttle"][since]
-                hunting.append(reversals(time[since], lever, LEVER_DEADBAND))
-            swings += [_swings(run, rows) for rows in _steady(run, speed.captured, part)]
-    return LevelFlight(levels, speeds, max(hunting), *np.max(swings, axis=0).tolist())
+                hunting.append(reversals(time[since], history["command_throttle"][since], LEVER_DEADBAND))
+            swings += [_swings(run, window) for window in _steady(run, since, SETTLED)]
+    lever, level, cas = np.max(swings, axis=0).tolist() if swings else (nan, nan, nan)
+    return LevelFlight(levels, speeds, max(hunting, default=nan), lever, level, cas)
 
 
-def climb_reversals(run: Run) -> float:
-    """Return the most load-factor reversals in a minute of any climb or descent with wings level: a limit cycle.
+def climb_swing(run: Run) -> float:
+    """Return the largest peak to peak load factor of a climb or descent with the speed captured and wings level.
 
-    Looked at in the mode that holds the speed by the path, from `HOLD` seconds after it was selected.
+    Looked at where the path holds the speed (SPD PITCH), from `CALM` seconds after the speed's capture and after
+    a turn: a limit cycle goes on, a transient is over.
     """
     history = run.history
-    straight = np.abs(history["roll"]) < WINGS_LEVEL
-    climbing = np.char.startswith(history["mode_VP"].astype(str), "PATH") & (history["mode_SPD"] == "PITCH")
-    most = 0.0
-    for span in spans(history["time"], np.where(straight & climbing, "climb", "")):
-        if span.word and span.end - span.begin > SHORTEST + HOLD:
-            rows = slice(
-                span.first + int(np.searchsorted(history["time"][span.rows], span.begin + HOLD)), span.last
-            )
-            most = max(
-                most, reversals(history["time"][rows], history["load_factor"][rows], LOAD_FACTOR_DEADBAND)
-            )
-    return most
+    time, wanted = history["time"], history["target_cas"]
+    jumps = np.concatenate(([0], np.cumsum(np.abs(np.diff(wanted)) > NEW_SPEED)))
+    swings = [nan]
+    for span in spans(time, np.where(history["mode_SPD"] == "PITCH", jumps.astype(str), "")):
+        if not span.word:
+            continue
+        rows = span.rows
+        captured = deviation(time[rows], history["cas"][rows] - wanted[rows], CAS_TOLERANCE).captured
+        if not isnan(captured):
+            since = slice(int(np.searchsorted(time, captured)), span.last)
+            swings += [float(np.ptp(history["load_factor"][window])) for window in _steady(run, since, CALM)]
+    return float(np.nanmax(swings)) if len(swings) > 1 else nan
 
 
 def _level_spans(run: Run) -> Iterator[Span]:
@@ -145,13 +150,12 @@ def _speed_spans(run: Run, level: Span, captured: float) -> Iterator[Span]:
         yield span._replace(first=span.first + first, last=span.last + first)
 
 
-def _steady(run: Run, captured: float, part: Span) -> Iterator[slice]:
-    """Windows of straight flight that begins `SETTLED` after the speed's capture and after the last turn."""
-    time = run.history["time"]
-    straight = (np.abs(run.history["roll"]) < WINGS_LEVEL) & (time >= captured)
-    for span in spans(time[part.rows], np.where(straight[part.rows], "straight", "")):
-        begin = span.begin + SETTLED
-        while span.word and begin + 0.5 * WINDOW <= span.end:
+def _steady(run: Run, since: slice, settled: float) -> Iterator[slice]:
+    """Windows of straight flight, from `settled` seconds after the speed's capture and after the last turn."""
+    time, straight = run.history["time"], np.abs(run.history["roll"]) < WINGS_LEVEL
+    for span in spans(time[since], np.where(straight[since], "straight", "")):
+        begin = span.begin + settled
+        while span.word and begin + SHORTEST_WINDOW <= span.end:
             end = min(begin + WINDOW, span.end)
             yield slice(int(np.searchsorted(time, begin)), int(np.searchsorted(time, end)))
             begin = end

@@ -1,55 +1,40 @@
 """How well a flight was flown, in numbers computed from its log alone. Arrays are columns of its history, SI.
 
-A number that cannot be formed, because that part was not flown, is NaN.
+A number that cannot be formed, because that part was not flown, is NaN. Level flight is in `level.py`.
 """
 
 from collections.abc import Sequence
-from math import copysign, nan
+from math import hypot, nan
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.analysis.spans import spans
-from harness.log import Run
+from harness.analysis.level import LevelFlight, climb_swing, level_flight
+from harness.log import Passage, Run
 from harness.manual import FlightManual
-from harness.mission.model import Leg, Mission
+from harness.mission.model import Leg, Mission, Stand
 from harness.navigation.database import Runway
-from harness.units import FT, KT, MIN
+from harness.numerics import wrap
+from harness.units import FT
 from harness.world import earth
 
 Floats = NDArray[np.float64]
 
-LEVEL_TOLERANCE = 50 * FT
-CAS_TOLERANCE = 2 * KT
-HOLD = 10.0  # s inside the tolerance: captured, and not passing through
-SHORTEST_LEVEL = 60.0  # s; a level segment this short ends before it has settled
-ROLL_SPEED = 15.0  # m/s; below it the aircraft leaves the centreline for the taxiway
 LOW_APPROACH = 1000 * FT
 
 
-class Deviation(NamedTuple):
-    """A deviation from a target: when it was first captured (s), and its size from then on (SI)."""
+class FlownLeg(NamedTuple):
+    """A leg and how it was flown. Metres; what its mode gives no meaning to is NaN.
 
-    captured: float
-    largest: float
-    rms: float
+    `closest` is the smallest distance of any record to the fix: up to half a record's flight more than it was.
+    `cross_track` is the largest distance from the course line in the last half of the leg, up to the passage,
+    which is the beginning of the turn when flown by.
+    """
 
-
-class LevelSegment(NamedTuple):
-    """A stretch of cruise at one level and one speed."""
-
-    begin: float
-    end: float
-    altitude: Deviation
-    cas: Deviation
-    throttle_reversals: float  # per minute, once both are captured
-
-
-class TrackedLeg(NamedTuple):
-    """A tracked leg: its name and the largest distance from the course line in its last half, m."""
-
-    name: str
+    leg: Leg
+    passage: Passage | None
+    closest: float
     cross_track: float
 
 
@@ -59,6 +44,14 @@ class Touchdown(NamedTuple):
     distance: float
     across: float
     sink: float
+
+
+class Parked(NamedTuple):
+    """Where the flight ended: m from the stand and rad off its heading (NaN without one), and still moving at m/s."""
+
+    distance: float
+    heading_error: float
+    speed: float
 
 
 class Envelope(NamedTuple):
@@ -75,83 +68,38 @@ class Envelope(NamedTuple):
     stall_warning: bool
 
 
-def deviation(time: Floats, error: Floats, tolerance: float) -> Deviation:
-    """Measure an error (SI) from when it has come inside the tolerance to stay there for `HOLD` seconds."""
-    inside = np.abs(error) <= tolerance
-    for span in spans(time, np.where(inside, "in", "out")):
-        if span.word == "in" and span.end - span.begin >= HOLD:
-            after = error[span.first :]
-            return Deviation(span.begin, float(np.max(np.abs(after))), float(np.sqrt(np.mean(after**2))))
-    return Deviation(nan, nan, nan)
+def flown_legs(run: Run, legs: Sequence[Leg]) -> list[FlownLeg]:
+    """Measure every leg; one that was not come to has no passage.
 
-
-def reversals(time: Floats, signal: Floats, deadband: float) -> float:
-    """Count the turning points of a signal, per minute; swings smaller than `deadband` are ignored."""
-    if len(time) < 2:
-        return nan
-    turns, direction, pivot = 0, 0.0, float(signal[0])
-    for value in signal.tolist():
-        step = value - pivot
-        if step * direction > 0.0:
-            pivot = value
-        elif abs(step) > deadband:
-            turns += direction != 0.0
-            direction, pivot = copysign(1.0, step), value
-    return turns / (float(time[-1] - time[0]) / MIN)
-
-
-def level_segments(run: Run) -> list[LevelSegment]:
-    """Measure every stretch of cruise in which neither the level nor the wanted speed jumps."""
+    A tracked leg is held against the line through its station, or fix, at its true course; a direct one against
+    the line the pilot says it flew (the log's `target_cross_track`).
+    """
     history = run.history
-    time, wanted = history["time"], history["target_cas"]
-    level = history["target_level"]
-    jumps = np.concatenate(([0], np.cumsum((np.abs(np.diff(wanted)) > 0.5 * KT) | (np.diff(level) != 0))))
-    words = np.char.add(np.char.add(history["phase"].astype(str), "#"), jumps.astype(str))
-    found = []
-    for span in spans(time, words):
-        if not span.word.startswith("ENR.CRS#") or span.end - span.begin < SHORTEST_LEVEL:
+    found, begin = [], 0.0
+    for number, leg in enumerate(legs):
+        if number >= len(run.passages):
+            found.append(FlownLeg(leg, None, nan, nan))
             continue
-        rows = span.rows
-        altitude = deviation(time[rows], history["target_level_error"][rows], LEVEL_TOLERANCE)
-        cas = deviation(time[rows], history["cas"][rows] - wanted[rows], CAS_TOLERANCE)
-        settled = time[rows] >= max(altitude.captured, cas.captured)
-        hunting = reversals(time[rows][settled], history["command_throttle"][rows][settled], deadband=0.02)
-        found.append(LevelSegment(span.begin, span.end, altitude, cas, hunting))
+        passage = run.passages[number]
+        halfway = float(np.mean(np.interp((begin, passage.time), history["time"], history["distance"])))
+        rows = (history["distance"] >= halfway) & (history["time"] < passage.time)
+        across = nan
+        if leg.course_true is not None:
+            origin = leg.fix.station or leg.fix
+            position = (history["latitude"][rows], history["longitude"][rows])
+            _, off = earth.offsets(origin.latitude, origin.longitude, leg.course_true, *position)
+            across = largest(off)
+        elif leg.mode == "direct":
+            across = largest(history["target_cross_track"][rows])
+        found.append(FlownLeg(leg, passage, passage.closest, across))
+        begin = passage.time
     return found
 
 
-def tracked_legs(run: Run, legs: Sequence[Leg]) -> list[TrackedLeg]:
-    """Measure the tracked legs against the line through their station, or fix, at their true course."""
+def roll_deviation(run: Run, runway: Runway, phase: str) -> float:
+    """Return the largest distance from the centreline in m, on the main wheels in a phase that begins so."""
     history = run.history
-    times = [passage.time for passage in run.passages]
-    found = []
-    for number, (leg, end) in enumerate(zip(legs, times, strict=False)):
-        if leg.course_true is None:
-            continue
-        begin = times[number - 1] if number else 0.0
-        distance = history["distance"]
-        halfway = float(np.mean(np.interp((begin, end), history["time"], distance)))
-        rows = (distance >= halfway) & (history["time"] <= end)
-        origin = leg.fix.station or leg.fix
-        _, across = earth.offsets(
-            origin.latitude,
-            origin.longitude,
-            leg.course_true,
-            history["latitude"][rows],
-            history["longitude"][rows],
-        )
-        found.append(TrackedLeg(leg.name, largest(across)))
-    return found
-
-
-def roll_deviation(run: Run, runway: Runway, phase: str, above: float = 0.0) -> float:
-    """Return the largest distance from the centreline in m, on the main wheels and faster than `above` (m/s)."""
-    history = run.history
-    rows = (
-        np.char.startswith(history["phase"].astype(str), phase)
-        & (history["main_on_ground"] > 0)
-        & (history["tas"] >= above)
-    )
+    rows = np.char.startswith(history["phase"].astype(str), phase) & (history["main_on_ground"] > 0)
     _, across = earth.offsets(
         runway.latitude,
         runway.longitude,
@@ -181,13 +129,25 @@ def touchdown(run: Run, runway: Runway) -> Touchdown:
 
 
 def stopping_margin(run: Run, runway: Runway) -> float:
-    """Return the metres of runway left where the aircraft got slow enough to leave it; negative: overrun."""
+    """Return the metres of runway left where the landing roll ended; negative or NaN: it did not stop on it."""
     history = run.history
-    rows = np.flatnonzero((history["phase"] == "LDG.roll-out") & (history["tas"] <= ROLL_SPEED))
+    rows = np.flatnonzero(history["phase"] == "LDG.roll-out")
     if not len(rows):
         return nan
-    along, _ = runway.offset(history["latitude"][rows[0]], history["longitude"][rows[0]])
-    return runway.length - along
+    along, across = runway.offset(history["latitude"][rows[-1]], history["longitude"][rows[-1]])
+    return runway.length - along if abs(across) <= 0.5 * runway.width else nan
+
+
+def parked(run: Run, stand: Stand | None) -> Parked:
+    """Return how the flight ended."""
+    latitude, longitude, heading, north, east = (
+        float(run.history[name][-1])
+        for name in ("latitude", "longitude", "heading", "velocity_north", "velocity_east")
+    )
+    if stand is None:
+        return Parked(nan, nan, hypot(north, east))
+    _, _, distance = earth.inverse(latitude, longitude, stand.latitude, stand.longitude)
+    return Parked(distance, wrap(heading - stand.heading), hypot(north, east))
 
 
 def envelope(run: Run, manual: FlightManual) -> Envelope:
@@ -232,28 +192,32 @@ def smallest(values: Floats) -> float:
 class Measures(NamedTuple):
     """Everything above for one flight."""
 
-    levels: list[LevelSegment]
-    legs: list[TrackedLeg]
+    level: LevelFlight
+    climb_swing: float
+    legs: list[FlownLeg]
     takeoff_roll: float
     landing_roll: float
     glide_slope_dots: float
     localizer_dots: float
     touchdown: Touchdown
     stopping_margin: float
+    parked: Parked
     envelope: Envelope
 
 
 def measure(run: Run, mission: Mission, manual: FlightManual, departure: Runway, arrival: Runway) -> Measures:
-    """Measure a flight; waypoint miss distances are in the run's passages already."""
+    """Measure a flight."""
     glide_slope, localizer = approach_dots(run, arrival)
     return Measures(
-        levels=level_segments(run),
-        legs=tracked_legs(run, mission.legs),
+        level=level_flight(run),
+        climb_swing=climb_swing(run),
+        legs=flown_legs(run, mission.legs),
         takeoff_roll=roll_deviation(run, departure, "T/O"),
-        landing_roll=roll_deviation(run, arrival, "LDG", above=ROLL_SPEED),
+        landing_roll=roll_deviation(run, arrival, "LDG"),
         glide_slope_dots=glide_slope,
         localizer_dots=localizer,
         touchdown=touchdown(run, arrival),
         stopping_margin=stopping_margin(run, arrival),
+        parked=parked(run, mission.arrival.stand),
         envelope=envelope(run, manual),
     )

@@ -7,7 +7,7 @@ import re
 import secrets
 import shutil
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import count
 from os import PathLike
 from pathlib import Path
@@ -42,7 +42,8 @@ PASSAGE_COLUMNS: tuple[tuple[str, str, float, int], ...] = (
 class RunFolder:
     """A new folder in `out` for a run of mission `name`, under a hidden name until `keep` is called.
 
-    Used as a context: a folder not kept is removed. Raises OutputError when nothing can be written there.
+    Used as a context: a folder not kept is removed, with those made for it. Raises OutputError when nothing can be
+    written there.
     """
 
     def __init__(self, out: str | PathLike[str], name: str) -> None:
@@ -50,6 +51,7 @@ class RunFolder:
         self._name = re.sub(r"[^A-Za-z0-9_-]+", "-", name)[:60].strip("-") or "run"
         self.path = self._out / f".{self._name}-{secrets.token_hex(4)}.partial"
         with writing(self._out):
+            self._made = [folder for folder in (self._out, *self._out.parents) if not folder.exists()]
             self._out.mkdir(parents=True, exist_ok=True)
             self.path.mkdir()
 
@@ -79,6 +81,9 @@ class RunFolder:
     def __exit__(self, *exception: object) -> None:
         if self.path.suffix == ".partial":
             shutil.rmtree(self.path, ignore_errors=True)
+            with suppress(OSError):  # somebody else may be using them by now
+                for folder in self._made:
+                    folder.rmdir()
 
 
 @contextmanager

@@ -1,18 +1,21 @@
 """A JSBSim aircraft as a plant: takes Commands, flies a pilot step of frames, hands back a State."""
 
+import ctypes
 from collections.abc import Callable, Iterable
 from functools import partial
-from math import degrees, inf, nan
+from math import degrees, inf, isfinite, nan
 from operator import call, mul
 from pathlib import Path
 from typing import NamedTuple
 
 import jsbsim
 
-from harness.errors import GroundImpactError, InputError, NumericalError
+from harness.errors import InputError, NumericalError
+from harness.plant.impact import IMPACT_SINK, impact
 from harness.plant.messages import Messages
 from harness.plant.properties import COMMANDS, PSF, STATE, Binding
-from harness.state import FAST, MEDIUM, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, close_to_ground
+from harness.plant.tanks import Tank, filled
+from harness.state import FAST, LOW, MEDIUM, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, close_to_ground
 from harness.units import FT, LB
 
 INTEGRATORS = {
@@ -25,7 +28,7 @@ INTEGRATORS = {
 }
 TERRAIN_PERIOD = 24  # pilot steps between two looks at the terrain below
 TERRAIN_HEIGHT = 60.0  # m; nearer the ground its elevation stays what it was
-IMPACT_SINK = 5.0  # m/s at the wheels: about twice the limit descent velocity of CS 25.473 (3.05 m/s)
+MOST_CONTACTS = 32  # gear units and structure contacts an aircraft may have
 STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground trim finds the true one
 GROUND_TRIM = 2  # JSBSim's trim mode for an aircraft on its wheels
 TANKS = 7
@@ -46,13 +49,6 @@ class Loads(NamedTuple):
 
     payload: float
     fuel: float
-
-
-class Tank(NamedTuple):
-    """A fuel tank: capacity in kg and its place in the filling order."""
-
-    capacity: float
-    order: float
 
 
 class Air(NamedTuple):
@@ -100,6 +96,7 @@ class JSBSimPlant:
         self._setters = [[self._setter(name) for name in COMMANDS[field]] for field in Commands._fields]
         self._set_terrain = self._setter("position/terrain-elevation-asl-ft")
         self._written = Commands(*[nan] * len(Commands._fields))
+        self._structure = self._contacts()
         self._standing_height = self._read("position/h-agl-ft") * FT
         self._run = self._fdm.run
         self._steps = 0
@@ -156,23 +153,28 @@ class JSBSimPlant:
             raise self._not_finite()
         sink, self._sink = self._sink, -state.vertical_speed
         self._close = close_to_ground(state.height, state.cas)
-        if (state.main_on_ground and sink > IMPACT_SINK) or state.height < BELOW_GROUND:
-            raise GroundImpactError(
-                f"hit the ground at {sink:.1f} m/s",
-                time=state.time,
-                phase="in the simulator",
-                knob="look at the speeds and levels before this moment in the time history",
-            )
+        if state.height < LOW:
+            struck = any(map(call, self._structure)) or state.height < BELOW_GROUND
+            if struck or (state.main_on_ground and sink > IMPACT_SINK):
+                raise impact(state, sink, struck=struck)
         if self._steps - self._terrain_seen >= TERRAIN_PERIOD and state.height > TERRAIN_HEIGHT:
             self._terrain_seen = self._steps
             self._set_terrain(self._terrain(state.latitude, state.longitude) / FT)
         return state
 
+    def _contacts(self) -> list[Callable[[], float]]:
+        """Whether each part of the structure touches the ground: fuselage, wing tips, propellers."""
+        nodes = [self._manager.get_node(f"contact/unit[{i}]/WOW") for i in range(MOST_CONTACTS)]
+        return [node.get_double_value for node in nodes if node is not None]
+
     def _not_finite(self) -> NumericalError:
+        lost = [field for field, get in zip(State._fields, self._getters, strict=True) if not isfinite(get())]
         return NumericalError(
             "the state of the aircraft is no longer finite",
             time=self._steps * self._step,
             phase="in the simulator",
+            required="finite numbers",
+            achieved=", ".join(lost[:5]),
             knob="look at the last rows of the time history; a mass, inertia or wind out of all bounds does this",
         )
 
@@ -248,25 +250,6 @@ new_state: Callable[[Iterable[float]], State] = partial(tuple.__new__, State)
 """A State from its values in order, without the length check of `State._make`, which costs more than the rest."""
 
 
-def filled(tanks: list[Tank], fuel: float) -> list[float]:
-    """Kilograms in each tank when `fuel` is put in by filling order; tanks of equal order fill in proportion.
-
-    Raises InputError when it does not fit.
-    """
-    contents = [0.0] * len(tanks)
-    left = fuel
-    for order in sorted({tank.order for tank in tanks}):
-        group = [i for i, tank in enumerate(tanks) if tank.order == order]
-        capacity = sum(tanks[i].capacity for i in group)
-        share = min(left / capacity, 1.0)
-        for i in group:
-            contents[i] = share * tanks[i].capacity
-        left -= share * capacity
-    if left > 1e-6:
-        raise InputError(f"{fuel:.0f} kg of fuel do not fit: the tanks hold {fuel - left:.0f} kg")
-    return contents
-
-
 def _load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
     messages = Messages()
     jsbsim.set_logger(messages)
@@ -276,9 +259,17 @@ def _load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
     try:
         loaded = fdm.load_model(aircraft)
     except jsbsim.BaseError as error:
-        raise InputError(f"JSBSim refuses the aircraft {aircraft}: {error}") from error
+        _never_destroy(fdm)
+        said = " ".join(str(error).split())
+        raise InputError(f"JSBSim refuses the aircraft {aircraft}: {said}", file=root) from error
     if not loaded:
+        _never_destroy(fdm)
         said = "\n    ".join(messages.serious)
         raise InputError(f"JSBSim could not load the aircraft {aircraft}", file=root, remedy=said)
     fdm.disable_output()
     return fdm
+
+
+def _never_destroy(fdm: jsbsim.FGFDMExec) -> None:
+    """Keep a half-loaded simulator for ever: taking it down reads properties it never had, and aborts the process."""
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(fdm))
