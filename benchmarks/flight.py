@@ -37,18 +37,18 @@ class Interleaved:
     def __init__(self, session: Session) -> None:
         _, self._plant = prepare(session.mission, session.manual, rate=FRAME_RATE)
         self._plant._frames = range(0)  # noqa: SLF001  `advance` then writes the commands and leaves the frames to us
-        self._commands: list[Commands] = []
+        self._left = SEGMENT
+        self._last = Commands()
         self.flight_time = 0.0
         self.bare_time = 0.0
         self.frames = 0
-        self._mark = 0.0
+        self._mark = perf_counter()
 
     def see(self, state: State, commands: Commands, pilot: Reporter) -> None:  # noqa: ARG002  an observer
-        """Remember the step; repeat the segment when it is full."""
-        if not self._mark:
-            self._mark = perf_counter()  # loading the aircraft is not part of flying it
-        self._commands.append(commands)
-        if len(self._commands) == SEGMENT:
+        """Count the step; repeat the segment when it is full."""
+        self._left -= 1
+        if not self._left:
+            self._last = commands
             self.close()
 
     def note(self, event: Event) -> None:
@@ -57,16 +57,15 @@ class Interleaved:
     def close(self) -> None:
         """Account for the segment flown and step as many frames bare."""
         self.flight_time += perf_counter() - self._mark
-        frames = len(self._commands) * (FRAME_RATE // PILOT_RATE)
-        if self._commands:
-            self._plant.advance(self._commands[-1])
+        frames = (SEGMENT - self._left) * (FRAME_RATE // PILOT_RATE)
+        self._plant.advance(self._last)
         step = self._plant.fdm.run
         begin = perf_counter()
         for _ in range(frames):
             step()
         self.bare_time += perf_counter() - begin
         self.frames += frames
-        self._commands.clear()
+        self._left = SEGMENT
         self._mark = perf_counter()
 
 

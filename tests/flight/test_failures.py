@@ -318,14 +318,31 @@ def test_two_flights_into_one_folder_do_not_meet(tmp_path: Path, repository: Pat
     assert first == second
 
 
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("<system name='gear'>", "systems/gear.xml:"),
+        ("<system name='gear'/>", "gear/main-wow"),
+        (None, "gear.xml"),
+    ],
+    ids=["malformed", "an output missing", "a file missing"],
+)
 def test_an_aircraft_that_jsbsim_cannot_load_is_refused(
-    tmp_path: Path, repository: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    content: str | None, said: str, tmp_path: Path, repository: Path
 ) -> None:
-    for folder in ("aircraft", "engine", "systems", "missions"):
-        shutil.copytree(repository / folder, tmp_path / "root" / folder)
-    (tmp_path / "root" / "systems" / "gear.xml").write_text("<system name='gear'>", "utf-8")
-    for module in (resources, flight):
-        monkeypatch.setattr(module, "root", lambda: tmp_path / "root")
-    assert cli.main(["fly", BASE, "--out", str(tmp_path / "out")]) == 2
-    assert "harness: " in capsys.readouterr().err
+    for folder in ("harness", "aircraft", "engine", "systems", "missions"):
+        shutil.copytree(
+            repository / folder, tmp_path / folder, ignore=shutil.ignore_patterns("__pycache__", "analysis")
+        )
+    gear = tmp_path / "systems" / "gear.xml"
+    gear.unlink() if content is None else gear.write_text(content, "utf-8")
+    command = [sys.executable, "-P", "-m", "harness", "fly", BASE, "--out", str(tmp_path / "out")]
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    result = subprocess.run(
+        command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+    )
+    assert result.returncode == 2, result.stderr
+    assert result.stderr.startswith("harness: ")
+    assert said in result.stderr
+    assert "Traceback" not in result.stderr
     assert not (tmp_path / "out").exists()
