@@ -4,7 +4,7 @@ Its file is aircraft/NAME/flight-manual.xml; another aircraft is another file. A
 phases for its own flight (`FlightManual.with_mission`).
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from math import sqrt
@@ -69,6 +69,18 @@ class SpeedRule(NamedTuple):
     plus: float = 0.0
 
 
+class Numbers(dict[str, float]):
+    """Numbers by name, from one file. A name that is not there is refused with an InputError that says which are."""
+
+    def __init__(self, what: str, file: Path, numbers: Mapping[str, float]) -> None:
+        super().__init__(numbers)
+        self._what = what
+        self._file = file
+
+    def __missing__(self, name: str) -> float:
+        raise _unknown(self._file, self._what, name, self)
+
+
 class Changes(Protocol):
     """What a mission may change in the manual."""
 
@@ -96,7 +108,7 @@ class FlightManual:
         for setting in self.flaps:
             if setting.name == name:
                 return setting
-        raise self._unknown("flap setting", name, [setting.name for setting in self.flaps])
+        raise _unknown(self.source_path, "flap setting", name, [setting.name for setting in self.flaps])
 
     def stall_speed(self, mass: float, flaps: str) -> float:
         """The power-off 1-g stall speed in m/s CAS at `mass` (kg). CAS is taken as EAS: it is, when slow.
@@ -110,16 +122,10 @@ class FlightManual:
         """A named speed in m/s CAS at `mass` (kg). Raises InputError for a name the manual does not have."""
         rule = self.speeds.get(name)
         if rule is None:
-            raise self._unknown("speed", name, self.speeds)
+            raise _unknown(self.source_path, "speed", name, self.speeds)
         if rule.cas is not None:
             return rule.cas
         return rule.stall_ratio * self.stall_speed(mass, rule.flaps) + rule.plus
-
-    def gain(self, name: str) -> float:
-        """A gain, SI. Raises InputError for a name the manual does not have."""
-        if name not in self.gains:
-            raise self._unknown("gain", name, self.gains)
-        return self.gains[name]
 
     def with_mission(self, mission: Changes) -> "FlightManual":
         """This manual with the mission's speeds and phases in place of its own."""
@@ -128,9 +134,6 @@ class FlightManual:
         for name, change in mission.phases.items():
             phases[name] = phases.get(name, PhasePlan(name, (), ())).changed_by(change)
         return replace(self, speeds={**self.speeds, **speeds}, phases=phases)
-
-    def _unknown(self, what: str, name: str, known: Mapping[str, object] | list[str]) -> InputError:
-        return InputError(f'has no {what} "{name}"', file=self.source_path, remedy=did_you_mean(name, known))
 
 
 def read_manual(aircraft: str | Path) -> FlightManual:
@@ -145,15 +148,23 @@ def read_manual(aircraft: str | Path) -> FlightManual:
         aircraft=root.get("aircraft", ""),
         limits=_limits(source),
         flaps=tuple(_flap(source, element) for element in _entries(source, "flaps")),
-        thrust={
-            element.get("name", ""): _ratio(source, element, "lever")
-            for element in _entries(source, "thrust")
-        },
+        thrust=Numbers(
+            "thrust setting",
+            source.path,
+            {
+                element.get("name", ""): _ratio(source, element, "lever")
+                for element in _entries(source, "thrust")
+            },
+        ),
         speeds={element.get("name", ""): _speed(source, element) for element in _entries(source, "speeds")},
-        gains={
-            element.get("name", ""): source.read(element, "value", parse_any, NAN)
-            for element in _entries(source, "gains")
-        },
+        gains=Numbers(
+            "gain",
+            source.path,
+            {
+                element.get("name", ""): source.read(element, "value", parse_any, NAN)
+                for element in _entries(source, "gains")
+            },
+        ),
         phases={
             element.get("name", ""): read_phase(source, element) for element in _entries(source, "phases")
         },
@@ -164,6 +175,10 @@ def read_manual(aircraft: str | Path) -> FlightManual:
     if faults:
         raise InputErrors(faults)
     return manual
+
+
+def _unknown(file: Path, what: str, name: str, known: Iterable[str]) -> InputError:
+    return InputError(f'has no {what} "{name}"', file=file, remedy=did_you_mean(name, known))
 
 
 def _manual_file(aircraft: str | Path) -> Path:

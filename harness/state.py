@@ -1,5 +1,7 @@
 """What crosses between pilot and plant: `State` one way, `Commands` the other. SI and radians throughout."""
 
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import NamedTuple
 
 
@@ -82,3 +84,8 @@ class Commands(NamedTuple):
     gear: float = 1.0
     speedbrake: float = 0.0
     spoiler: float = 0.0  # ground spoilers
+
+
+new_state: Callable[[Iterable[float]], State] = partial(tuple.__new__, State)
+new_commands: Callable[[Iterable[float]], Commands] = partial(tuple.__new__, Commands)
+"""From the values in order, without the length check of `_make`, which costs more than the rest."""

@@ -219,7 +219,9 @@ def _parsed(path: Path) -> Element:
         # A column is "line 3, column 7" at the end of the message: the line is told before it.
         what = re.sub(r", line \d+, column (\d+)$", r", column \1", str(error.msg))
         line = max(error.lineno or 1, 1)
-        remedy = "no entities are allowed; delete their <!DOCTYPE ...>" if "ntity" in what else ""
+        remedy = 'each <tag> ends with its </tag> or />, each attribute reads name="value"; no < or & inside'
+        if "ntity" in what:
+            remedy = "no entities are allowed; delete their <!DOCTYPE ...>"
         raise InputError(
             f"is not well-formed XML: {shorten(what, 200)}", file=path, line=line, remedy=remedy
         ) from None

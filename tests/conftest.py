@@ -16,6 +16,22 @@ from harness.session import Session
 from harness.validation import judge_run
 
 Command = Callable[..., subprocess.CompletedProcess[str]]
+PATIENCE = 250.0  # s
+
+
+class Flight(NamedTuple):
+    """A flight and how it was judged."""
+
+    run: Run
+    bars: Sequence[Bar]
+
+    def measured(self, quantity: str) -> float:
+        """What was measured of the one quantity that begins so."""
+        (found,) = [bar.measured for bar in self.bars if bar.quantity.startswith(quantity)]
+        return found
+
+
+Fly = Callable[..., Flight]
 
 
 @pytest.fixture(scope="session")
@@ -41,24 +57,6 @@ def harness(tmp_path: Path, repository: Path) -> Command:
         )
 
     return run
-
-
-PATIENCE = 250.0  # s
-
-
-class Flight(NamedTuple):
-    """A flight and how it was judged."""
-
-    run: Run
-    bars: Sequence[Bar]
-
-    def measured(self, quantity: str) -> float:
-        """What was measured of the one quantity that begins so."""
-        (found,) = [bar.measured for bar in self.bars if bar.quantity.startswith(quantity)]
-        return found
-
-
-Fly = Callable[..., Flight]
 
 
 @pytest.fixture(scope="session")

@@ -53,6 +53,7 @@ class FlightLog:
         self._mode_names: tuple[str, ...] = ()
         self._target_names: tuple[str, ...] = ()
         self._countdown = 1
+        self._aloft = False
         self._brake: float | None = None
         self._on_ground = 1.0
         self._left_ground = 0.0
@@ -66,12 +67,7 @@ class FlightLog:
         self._countdown -= 1
         self._last = state
         self._commands = commands
-        if (
-            self._countdown
-            and commands.brake == self._brake
-            and state.main_on_ground == self._on_ground
-            and not self._passed
-        ):
+        if self._countdown and self._aloft:
             return
         self._pilot = pilot
         if state.main_on_ground != self._on_ground:
@@ -79,10 +75,12 @@ class FlightLog:
         if commands.brake != self._brake:
             self._brakes(state, commands, pilot)
         if self._passed:
+            self._aloft = state.height > LOW
             self.passages += [(event, state) for event in self._passed]
             self._passed.clear()
         if self._countdown <= 0:
             self._countdown = _interval(state)
+            self._aloft = state.height > LOW  # until the next record neither wheels nor brakes can matter
             self._record(state, commands, pilot)
 
     def note(self, event: Event) -> None:
@@ -90,6 +88,7 @@ class FlightLog:
         self.events.append(event)
         if event.kind == "waypoint":
             self._passed.append(event)
+            self._aloft = False  # look at the step it happens in
         elif event.kind == "phase":
             self._brake = None  # brakes may be off already when the take-off run begins: look again
 

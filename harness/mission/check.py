@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
-from math import pi, tan
+from math import atan2, pi, tan
 from pathlib import Path
 
 from harness.errors import InputError, InputErrors, did_you_mean
@@ -22,6 +22,9 @@ HARDEST_ACCELERATION = 0.5 * G0  # no transport aircraft gains or loses speed fa
 FARTHEST_TAXI = 10 * KM
 NEAREST_LAST_WAYPOINT = 3 * NM  # before the threshold: less leaves no room to line up
 SHORTEST_LEG = 100.0
+STEEPEST_LEG = (
+    15 * DEG
+)  # climb or descent from one waypoint to the next: more than a transport aircraft can keep up
 DAY = {
     "isa-deviation": (-80.0, 60.0, "K", 1.0),
     "qnh": (850 * HPA, 1090 * HPA, "hPa", HPA),
@@ -62,8 +65,8 @@ class _Checker:
         yield from basic
         if not basic:
             yield from self._decision_speeds()
-            for leg in self.mission.legs:
-                wrong_level = [*self._level(leg)]
+            for before, leg in zip((None, *self.mission.legs), self.mission.legs, strict=False):
+                wrong_level = [*self._level(leg)] or [*self._slope(before, leg)]
                 yield from wrong_level or self._airspeed(leg)
             yield from self._runways()
         yield from self._route()
@@ -187,6 +190,18 @@ class _Checker:
         if self.envelope.altitude(leg.level) < ground + TERRAIN_CLEARANCE:
             what = f"{leg.name}: {leg.level} is too low: {where} lies at {show(ground, 'ft')}"
             yield self._fault(path, what, f"at least {show(ground + TERRAIN_CLEARANCE, 'ft')}")
+
+    def _slope(self, before: Leg | None, leg: Leg) -> Iterator[InputError]:
+        start = before.fix if before else self.departure
+        altitude = self.envelope.altitude(before.level) if before else self.departure.elevation
+        distance = earth.inverse(start.latitude, start.longitude, leg.fix.latitude, leg.fix.longitude)[2]
+        rise = self.envelope.altitude(leg.level) - altitude
+        if abs(rise) > distance * tan(STEEPEST_LEG) and distance > SHORTEST_LEG:
+            angle, way = atan2(abs(rise), distance) / DEG, "climb" if rise > 0 else "descent"
+            steep = f"{show(abs(rise), 'ft')} in {show(distance, 'NM', 1)} is a {way} of {angle:.0f} deg"
+            what = f"{leg.name}: {leg.level} cannot be reached: {steep}"
+            remedy = f"at most {STEEPEST_LEG / DEG:.0f} deg: another level, or a longer leg"
+            yield self._fault(f"route/waypoint[{leg.name}]/level", what, remedy)
 
     def _route(self) -> Iterator[InputError]:
         before, start = "the departure runway", Position(*self.departure.point(self.departure.length))

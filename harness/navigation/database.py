@@ -167,7 +167,7 @@ class Database:
         runways = self._runways.get(airport)
         if runways is None:
             raise LookupError(
-                f"no airport {airport!r} in the navigation database{_suggest(airport, self._runways)}; "
+                f"no airport {airport!r} in the navigation database{_suggest(airport, self._runways) or ';'} "
                 f"it has {', '.join(self.airport_names())}"
             )
         if designator in runways:

@@ -15,7 +15,7 @@ from harness.pilot.control import ControlSystem
 from harness.pilot.machine import END, START, PhaseGraph
 from harness.pilot.route import NavigationComputer, Passage
 from harness.plan import Step
-from harness.state import MEDIUM_PERIOD, Commands, State, close_to_ground
+from harness.state import MEDIUM_PERIOD, Commands, State, close_to_ground, new_commands
 
 FAST = frozenset({"time-in-phase", "vertical-speed", "pitch"})
 """Quantities renewed at every pilot step; what waits for another one is read when the outer loops turn."""
@@ -47,6 +47,7 @@ class Pilot:
         )
         self.route.on_passage = self._passed
         self.control = ControlSystem(manual, self.route, departure, step)
+        self._fly = self.control.vertical.fly
         self.phase = START
         self.phase_begin = 0.0
         self.done = False  # the mission is complete
@@ -98,9 +99,9 @@ class Pilot:
         self._countdown -= 1
         if self._countdown > 0 and not self._alert:
             commands = self._commands
-            pitch = self.control.vertical.fly(state.vertical_speed, state.pitch)
+            pitch = self._fly(state.vertical_speed, state.pitch)
             if pitch != commands.pitch:
-                commands = self._commands = Commands(commands.throttle, pitch, *commands[2:])
+                commands = self._commands = new_commands((commands[0], pitch, *commands[2:]))
             return commands
         return self._act_fully(state)
 
@@ -129,7 +130,7 @@ class Pilot:
             if state.main_on_ground and self._on_runway:
                 self.control.runway.check(state, self.phase)
             self._countdown = self._period = period
-        self._commands = self.control.command(self.control.vertical.fly(state.vertical_speed, state.pitch))
+        self._commands = self.control.command(self._fly(state.vertical_speed, state.pitch))
         return self._commands
 
     def _watch(self) -> None:

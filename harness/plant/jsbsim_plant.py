@@ -1,8 +1,7 @@
 """A JSBSim aircraft as a plant: takes Commands, flies a pilot step of frames, hands back a State."""
 
 import ctypes
-from collections.abc import Callable, Iterable
-from functools import partial
+from collections.abc import Callable
 from math import degrees, inf, isfinite, nan
 from operator import call, mul
 from pathlib import Path
@@ -15,7 +14,17 @@ from harness.plant.impact import IMPACT_SINK, impact
 from harness.plant.messages import Messages
 from harness.plant.properties import COMMANDS, PSF, STATE, Binding
 from harness.plant.tanks import Tank, filled
-from harness.state import FAST, LOW, MEDIUM, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, close_to_ground
+from harness.state import (
+    FAST,
+    LOW,
+    MEDIUM,
+    MEDIUM_PERIOD,
+    SLOW_PERIOD,
+    Commands,
+    State,
+    close_to_ground,
+    new_state,
+)
 from harness.units import FT, LB
 
 INTEGRATORS = {
@@ -92,6 +101,7 @@ class JSBSimPlant:
         self._medium = self._getters[:_MEDIUM]
         self._rest: tuple[float, ...] = ()
         self._close = False
+        self._blind = MEDIUM_PERIOD  # pilot steps until more than the fast fields are read
         self._factors = [binding.factor for binding in STATE]
         self._setters = [[self._setter(name) for name in COMMANDS[field]] for field in Commands._fields]
         self._set_terrain = self._setter("position/terrain-elevation-asl-ft")
@@ -101,6 +111,7 @@ class JSBSimPlant:
         self._run = self._fdm.run
         self._steps = 0
         self._terrain_seen = 0
+        self._read_whole = 0
         self._sink = 0.0
         self._write(Commands())
 
@@ -132,7 +143,8 @@ class JSBSimPlant:
         for _ in self._frames:
             run()
         self._steps += 1
-        if self._close or not self._steps % MEDIUM_PERIOD:
+        self._blind -= 1
+        if self._blind <= 0:
             return self._look_around()
         # By hand: this runs at every pilot step.
         vertical_speed, attitude = self._vertical_speed() * FT, self._pitch()
@@ -142,8 +154,9 @@ class JSBSimPlant:
 
     def _look_around(self) -> State:
         """Read more of State, and see whether it is still the state of an aircraft."""
-        if self._close or not self._steps % SLOW_PERIOD:
+        if self._close or self._steps - self._read_whole >= SLOW_PERIOD:
             state = self.state()
+            self._read_whole = self._steps
         else:
             medium = list(map(mul, map(call, self._medium), self._factors))
             medium[_HEIGHT] -= self._standing_height
@@ -153,6 +166,7 @@ class JSBSimPlant:
             raise self._not_finite()
         sink, self._sink = self._sink, -state.vertical_speed
         self._close = close_to_ground(state.height, state.cas)
+        self._blind = 1 if self._close else MEDIUM_PERIOD
         if state.height < LOW:
             struck = any(map(call, self._structure)) or state.height < BELOW_GROUND
             if struck or (state.main_on_ground and sink > IMPACT_SINK):
@@ -246,8 +260,6 @@ _EVERY = range(len(Commands._fields))
 _MOVING = range(_STANDING)
 _FAST = len(FAST)
 _MEDIUM = _FAST + len(MEDIUM)
-new_state: Callable[[Iterable[float]], State] = partial(tuple.__new__, State)
-"""A State from its values in order, without the length check of `State._make`, which costs more than the rest."""
 
 
 def _load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:

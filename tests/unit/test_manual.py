@@ -39,8 +39,18 @@ def test_limits_flaps_thrust_and_gains_are_si(manual: FlightManual) -> None:
     assert manual.limits["maximum-bank"] == pytest.approx(30 * DEG)
     assert manual.flap("take-off").position == 0.5
     assert manual.thrust["TOGA"] == 1.0
-    assert manual.gain("altitude-time-constant") == 12.0
-    assert manual.gain("pitch-per-speed") == pytest.approx(0.5 * DEG / KT)
+    assert manual.gains["altitude-time-constant"] == 12.0
+    assert manual.gains["pitch-per-speed"] == pytest.approx(0.5 * DEG / KT)
+
+
+def test_a_gain_or_thrust_setting_the_manual_does_not_have_is_refused(manual: FlightManual) -> None:
+    with pytest.raises(
+        InputError, match='has no gain "altitude-time"\n    did you mean altitude-time-constant'
+    ) as refused:
+        manual.gains["altitude-time"]
+    assert str(refused.value).startswith(str(MANUAL))
+    with pytest.raises(InputError, match='has no thrust setting "TOGO"'):
+        manual.thrust["TOGO"]
 
 
 def test_the_stall_speed_carries_the_weight_at_maximum_lift(manual: FlightManual) -> None:

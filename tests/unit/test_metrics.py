@@ -8,7 +8,7 @@ import pytest
 
 from harness.analysis import metrics
 from harness.log import Passage, Run
-from harness.mission.model import Fix, Leg
+from harness.mission.model import Fix, Leg, Stand
 from harness.navigation import database
 from harness.units import DEG, KT, Level, Speed
 from harness.world import earth
@@ -26,56 +26,6 @@ def a_run(history, passages=(), **summary):
 
 def a_passage(name, time):
     return Passage(name, time, *([0.0] * 11))
-
-
-def test_a_deviation_counts_from_its_capture():
-    time = np.arange(0.0, 101.0)
-    error = np.where(time < 40, 100.0 - time, 3.0)
-    error[60] = -9.0
-    found = metrics.deviation(time, error, tolerance=10.0)
-    assert (found.captured, found.largest) == (40.0, 9.0)
-    assert found.rms == pytest.approx(np.sqrt((60 * 9 + 81) / 61))
-
-
-def test_passing_through_the_target_is_no_capture():
-    time = np.arange(0.0, 100.0)
-    found = metrics.deviation(time, time - 50, tolerance=3.0)
-    assert isnan(found.captured)
-    assert isnan(found.largest)
-
-
-def test_leaving_the_target_after_its_capture_is_held_against_the_pilot():
-    time = np.arange(0.0, 100.0)
-    assert metrics.deviation(time, np.where(time > 80, 30.0, 0.0), 10.0).largest == 30.0
-
-
-def test_a_sine_turns_twice_in_each_period_and_noise_does_not():
-    time = np.arange(0.0, 600.0, 0.25)
-    assert metrics.reversals(time, 0.1 * np.sin(2 * np.pi * time / 20), 0.02) == pytest.approx(6, abs=0.2)
-    assert metrics.reversals(time, 0.005 * np.sin(2 * np.pi * time / 20), 0.02) == 0.0
-    assert metrics.reversals(time, time / 600, 0.02) == 0.0
-
-
-def test_cruise_is_cut_where_the_wanted_speed_jumps():
-    time = np.arange(0.0, 600.0)
-    wanted = np.where(time < 300, 130.0, 125.0)
-    history = {
-        "time": time,
-        "phase": np.where(time < 50, "ENR.CLB", "ENR.CRS"),
-        "cas": np.where(time < 350, np.minimum(wanted, 130.0), 125.2)
-        + np.where((time >= 300) & (time < 350), 3, 0),
-        "target_cas": wanted,
-        "target_level": np.full(600, 1524.0),
-        "target_level_error": np.where(time < 60, 40.0, 2.0),
-        "command_throttle": np.full(600, 0.6),
-    }
-    first, second = metrics.level_segments(a_run(history))
-    assert (first.begin, first.end, second.begin) == (50, 300, 300)
-    assert (first.altitude.captured, first.altitude.largest) == (60, 2.0)
-    assert first.cas.largest == 0.0
-    assert second.cas.captured == 350
-    assert second.cas.largest == pytest.approx(0.2)
-    assert second.throttle_reversals == 0.0
 
 
 @pytest.mark.parametrize("outbound", [True, False])
@@ -97,9 +47,11 @@ def test_a_tracked_leg_is_measured_in_its_last_half(outbound):
         "distance": np.linspace(0, 6e4, 121),
     }
     leg = Leg("X", Fix(0, 0, RID), "tracking", course, Speed("CAS", 1), Level("FL", 1), "fly-over", (), 1)
-    (found,) = metrics.tracked_legs(a_run(history, [a_passage("X", 120.0)]), [leg])
-    assert found.name == "X"
-    assert found.cross_track == pytest.approx(120, rel=2e-3)
+    flown, missed = metrics.flown_legs(a_run(history, [a_passage("X", 120.0)]), [leg, leg])
+    assert flown.leg.name == "X"
+    assert flown.cross_track == pytest.approx(120, rel=2e-3)
+    assert missed.passage is None
+    assert isnan(missed.cross_track)
 
 
 def a_landing(across=2.0, sink=0.8):
@@ -129,10 +81,25 @@ def test_a_touchdown_is_located_on_the_runway():
     assert found.sink == 0.8
 
 
-def test_a_landing_roll_is_measured_until_the_aircraft_is_slow():
+def test_a_landing_roll_is_measured_to_its_end_and_ends_on_the_runway():
     run = a_landing(across=-2.5)
-    assert metrics.roll_deviation(run, RUNWAY, "LDG", above=15.0) == pytest.approx(2.5, abs=0.01)
-    assert metrics.stopping_margin(run, RUNWAY) == pytest.approx(RUNWAY.length - 1797, abs=25)
+    assert metrics.roll_deviation(run, RUNWAY, "LDG") == pytest.approx(2.5, abs=0.01)
+    assert metrics.stopping_margin(run, RUNWAY) == pytest.approx(RUNWAY.length - 2000, abs=0.1)
+
+
+def test_a_landing_roll_that_ends_beside_the_runway_did_not_stop_on_it():
+    assert isnan(metrics.stopping_margin(a_landing(across=40.0), RUNWAY))
+
+
+def test_the_end_is_held_against_the_stand():
+    latitude, longitude = RUNWAY.point(2000.0, 100.0)
+    stand = Stand(*RUNWAY.point(2003.0, 104.0), 1.0)
+    position = {"latitude": [0.0, latitude], "longitude": [0.0, longitude], "heading": [0.0, 1.1]}
+    run = a_run(position | {"velocity_north": [9.0, 0.3], "velocity_east": [9.0, 0.4]})
+    found = metrics.parked(run, stand)
+    assert found.distance == pytest.approx(5.0, abs=0.02)
+    assert (found.heading_error, found.speed) == (pytest.approx(0.1), pytest.approx(0.5))
+    assert isnan(metrics.parked(run, None).distance)
 
 
 def test_the_approach_is_judged_below_1000_feet():
