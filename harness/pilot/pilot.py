@@ -43,7 +43,7 @@ class Pilot:
         self.manual = manual
         self.step = step
         self.route = NavigationComputer(
-            mission.legs, arrival, mission.environment.qnh, manual.gains["bank-limit"]
+            mission.legs, departure, arrival, mission.environment.qnh, manual.gains["bank-limit"]
         )
         self.route.on_passage = self._passed
         self.control = ControlSystem(manual, self.route, departure, step)
@@ -81,7 +81,7 @@ class Pilot:
             "cross_track": self.route.guidance.cross_track if airborne else nan,
             "localizer_dots": self.route.localizer.dots if self._approaching else nan,
             "glide_slope_dots": self.route.glide_slope.dots if self._approaching else nan,
-            "distance_to_go": self.route.distance_to_go if airborne else nan,
+            "distance_to_go": self.route.distance_to_go,
         }
 
     @property

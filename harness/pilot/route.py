@@ -53,7 +53,8 @@ class Passage(NamedTuple):
 class NavigationComputer:
     """Follows the legs of a mission and then the runway's centreline; see `update`."""
 
-    def __init__(self, legs: Sequence[Leg], ils: Ils, qnh: float, turn_bank: float) -> None:
+    def __init__(self, legs: Sequence[Leg], start: Runway, ils: Ils, qnh: float, turn_bank: float) -> None:
+        """Begin at the runway `start`, end with `ils`; `qnh` in Pa; fly-by turns are led for `turn_bank` (rad)."""
         self.legs = legs
         self.ils = ils
         self.runway: Runway = ils.runway
@@ -71,7 +72,9 @@ class NavigationComputer:
         self._begun = False
         self._after = self._distances_after()
         self.guidance = Guidance(False, 0.0, 0.0, 0.0)
-        self.remaining = inf  # to the active waypoint, m
+        first = legs[0].fix
+        _, _, self.remaining = earth.inverse(start.latitude, start.longitude, first.latitude, first.longitude)
+        """Distance to the active waypoint, m."""
         self.target_cas = 0.0
         self.localizer = receivers.NeedleReading(0.0, 0.0, False)
         self.glide_slope = receivers.NeedleReading(0.0, 0.0, False)
@@ -81,7 +84,7 @@ class NavigationComputer:
     def distance_to_go(self) -> float:
         """Along the route to the threshold, m."""
         if self.waypoints_remaining == 0:
-            return self.distance_to_threshold
+            return max(self.distance_to_threshold, 0.0)
         return max(self.remaining, 0.0) + self._after[self.index]
 
     def speed_target(self, state: State) -> float:

@@ -178,7 +178,7 @@ BAD_VALUES = [
     ('name="WP2" station="RID" mode="tracking" course="148 deg magnetic"', 'name="WP2" station="COL" mode="homing"', "no length"),
     # what this aircraft cannot do
     ('level="FL230"', 'level="FL450"', "WP2: FL450 is above the maximum altitude of gta\n    at most 37,000 ft"),
-    ('level="FL50"', 'level="FL360"', "is a climb of 17 deg\n    at most 15 deg: another level, or a longer leg"),
+    ('level="FL50"', 'level="FL360"', "is a climb of 18 deg\n    at most 15 deg: another level, or a longer leg"),
     ('level="FL50"', 'level="FL10"', "WP1: FL10 is too low: COL lies at 990 ft"),
     ('speed="130 m/s CAS"', 'speed="180 m/s CAS"', "WP1: 350 kt CAS at FL50 is above VMO 300 kt"),
     ('speed="130 m/s CAS"', 'speed="180 m/s TAS"', "is 327 kt CAS and is above VMO 300 kt"),
