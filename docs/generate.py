@@ -84,8 +84,18 @@ def _condition(condition: Condition) -> str:
 
 def quantities() -> str:
     """What conditions can look at."""
+    plans = read_manual(AIRCRAFT).phases.values()
+    used = {
+        condition.quantity: f'`{condition.relation}="{condition.required}"`'
+        for plan in plans
+        for conditions in (
+            *(step.when for step in plan.steps),
+            *(checklist.items for checklist in plan.checklists),
+        )
+        for condition in conditions
+    }
     rows = [
-        (f"`{name}`", "yes or no" if kind == "yes-no" else KINDS[kind].noun, _example(kind))
+        (f"`{name}`", "yes or no" if kind == "yes-no" else KINDS[kind].noun, used.get(name, _example(kind)))
         for name, kind in vocabulary.QUANTITIES.items()
     ]
     return table(("quantity", "is", "for example"), rows)
@@ -108,7 +118,11 @@ def settings() -> str:
 def modes() -> str:
     """Super-modes, sub-modes and what each takes."""
     rows = [
-        (f"`{mode}`", f"`{sub_mode}`", "<br>".join(_argument(name, argument) for name, argument in arguments.items()))
+        (
+            f"`{mode}`",
+            f"`{sub_mode}`",
+            "<br>".join(_argument(name, argument) for name, argument in arguments.items()),
+        )
         for mode, sub_modes in vocabulary.MODES.items()
         for sub_mode, arguments in sub_modes.items()
     ]
@@ -116,7 +130,7 @@ def modes() -> str:
 
 
 def _argument(name: str, argument: Argument) -> str:
-    kinds = {"word": "", "speed-target": 'a speed of the manual, `V2 + 10 kt`, `200 kt CAS`'}
+    kinds = {"word": "", "speed-target": "a speed of the manual, `V2 + 10 kt`, `200 kt CAS`"}
     value = kinds.get(argument.kind) if argument.kind in kinds else _example(argument.kind)
     return f"`{name}`: " + ", ".join(filter(None, (_words(argument.words), value)))
 

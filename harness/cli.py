@@ -121,9 +121,7 @@ def fly(chosen: argparse.Namespace) -> int:
     from harness.session import Session
 
     session = Session(chosen.mission, chosen.overrides)
-    signal.signal(
-        signal.SIGTERM, signal.default_int_handler
-    )  # asked to end, it keeps what was flown, as for Ctrl-C
+    signal.signal(signal.SIGTERM, end)
     console = Console(sys.stderr)
     try:
         run, stopped = session.fly(
@@ -132,13 +130,18 @@ def fly(chosen: argparse.Namespace) -> int:
     finally:
         console.close()
     if stopped is not None:
-        say(f"harness: {stopped}" if isinstance(stopped, FlightError) else "harness: interrupted")
+        say(f"harness: {str(stopped) or 'interrupted'}")
         say(f"    what was flown is in {run.folder}")
     if chosen.json:
         print_json({**run.summary, "folder": str(run.folder)})
     elif stopped is None:
         print(describe(run))
     return 0 if stopped is None else stopped.exit_code if isinstance(stopped, FlightError) else INTERRUPTED
+
+
+def end(*_: object) -> NoReturn:
+    """Told to end by a signal: keep what was flown, as for Ctrl-C."""
+    raise KeyboardInterrupt("ended by SIGTERM")
 
 
 def check(chosen: argparse.Namespace) -> int:
@@ -159,10 +162,10 @@ def validate(chosen: argparse.Namespace) -> int:
     from harness.console import Console
 
     verdicts = []
-    for trial in validation.trials(chosen.missions):
+    for trial, session in validation.prepare(chosen.missions):
         console = Console(sys.stderr)
         try:
-            verdict = validation.validate(trial, console)
+            verdict = validation.validate(trial, session, console)
         finally:
             console.close()
         verdicts.append(verdict)

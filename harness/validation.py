@@ -53,12 +53,16 @@ def trials(missions: Sequence[str]) -> list[Trial]:
     return list(found)
 
 
-def validate(trial: Trial, progress: "Observer | None" = None) -> Verdict:
+def prepare(missions: Sequence[str]) -> list[tuple[Trial, Session]]:
+    """The trials of these missions, ready to fly. Raises InputError when one of them is not fit to."""
+    return [(trial, Session(trial.mission, trial.overrides)) for trial in trials(missions)]
+
+
+def validate(trial: Trial, session: Session, progress: "Observer | None" = None) -> Verdict:
     """Fly a trial and judge it; a flight that does not complete fails its bars.
 
-    Raises InputError when the mission is not fit to fly, KeyboardInterrupt when interrupted.
+    Raises KeyboardInterrupt when interrupted.
     """
-    session = Session(trial.mission, trial.overrides)
     run, stopped = session.fly(progress=progress)
     if stopped is not None and not isinstance(stopped, FlightError):
         raise stopped

@@ -1,6 +1,7 @@
 """A JSBSim aircraft as a plant: takes Commands, flies a pilot step of frames, hands back a State."""
 
 import ctypes
+import re
 from collections.abc import Callable
 from math import degrees, inf, isfinite, nan
 from operator import call, mul
@@ -93,6 +94,7 @@ class JSBSimPlant:
         self._step = frames_per_step / rate
         self._terrain = terrain
         self._placement = placement
+        self._aircraft = aircraft
         self._fdm = _load(root, aircraft, rate)
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air)
@@ -205,7 +207,11 @@ class JSBSimPlant:
         put("ic/psi-true-deg", degrees(placement.heading))
         self._load(loads)
         put("ic/h-agl-ft", STANDING_HEIGHT / FT)
-        if not self._fdm.run_ic():
+        try:
+            ready = self._fdm.run_ic()
+        except jsbsim.BaseError as error:
+            raise _refused(self._fdm, self._aircraft, str(error)) from error
+        if not ready:
             raise InputError("JSBSim could not set the initial conditions")
         self._fdm.do_trim(GROUND_TRIM)
         put("atmosphere/wind-north-fps", air.north / FT)
@@ -271,17 +277,19 @@ def _load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
     try:
         loaded = fdm.load_model(aircraft)
     except jsbsim.BaseError as error:
-        _never_destroy(fdm)
-        said = " ".join(str(error).split())
-        raise InputError(f"JSBSim refuses the aircraft {aircraft}: {said}", file=root) from error
+        raise _refused(fdm, aircraft, str(error)) from error
     if not loaded:
-        _never_destroy(fdm)
-        said = "\n    ".join(messages.serious)
-        raise InputError(f"JSBSim could not load the aircraft {aircraft}", file=root, remedy=said)
+        raise _refused(fdm, aircraft, "\n    ".join(messages.serious))
     fdm.disable_output()
     return fdm
 
 
-def _never_destroy(fdm: jsbsim.FGFDMExec) -> None:
-    """Keep a half-loaded simulator for ever: taking it down reads properties it never had, and aborts the process."""
+def _refused(fdm: jsbsim.FGFDMExec, aircraft: str, said: str) -> InputError:
+    """What JSBSim said, as file, line and message where it gives them."""
+    # Kept for ever: taking a half-loaded simulator down reads properties it never had, and aborts the process.
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(fdm))
+    what = f"JSBSim refuses the aircraft {aircraft}"
+    found = re.search(r"In file (.+?):? line (\d+)\s*(.*)", said, re.DOTALL)
+    if found:
+        return InputError(f"{what}: {' '.join(found[3].split())}", file=found[1], line=int(found[2]))
+    return InputError(f"{what}: {said.strip()}", remedy="systems/ shows how the others provide it")

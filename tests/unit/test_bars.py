@@ -5,7 +5,7 @@ from math import nan
 
 import pytest
 
-from harness import validation
+from harness import cli, validation
 from harness.analysis.bars import Bar
 from harness.validation import Trial, Verdict
 
@@ -78,3 +78,21 @@ def test_the_main_mission_brings_its_companions_along():
         Trial("circuit"),
         *(trial for trial in validation.SUITE if trial != Trial("circuit")),
     ]
+
+
+@pytest.mark.parametrize(("measured", "code"), [(1.0, 0), (3.0, 1)])
+def test_the_exit_code_tells_whether_all_is_inside(monkeypatch, capsys, measured, code):
+    def flown(trial, session, progress):
+        return Verdict(trial, [Bar("sink", measured, "m/s", None, 1.2)])
+
+    monkeypatch.setattr(validation, "validate", flown)
+    assert cli.main(["validate", "circuit", "--json"]) == code
+    result = json.loads(capsys.readouterr().out)
+    assert result["inside"] is (code == 0)
+    assert [flight["mission"] for flight in result["flights"]] == ["circuit"]
+
+
+def test_a_mission_that_is_not_there_is_refused_before_any_flight(monkeypatch, capsys):
+    monkeypatch.setattr(validation, "validate", lambda *_: pytest.fail("flown"))
+    assert cli.main(["validate", "circuit", "nowhere"]) == 2
+    assert "nowhere" in capsys.readouterr().err

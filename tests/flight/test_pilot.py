@@ -1,0 +1,93 @@
+"""What the pilot does in a whole flight: the circuit, flown once."""
+
+from itertools import pairwise
+
+import pytest
+
+from harness.flight import fly_mission
+from harness.log import Event, FlightLog, Reporter
+from harness.session import Session
+from harness.state import Commands, State
+from harness.vocabulary import EDGES, MODES
+
+FIG_10 = (
+    "thrust control direct",
+    "thrust lever TOGA",
+    "elevator control direct",
+    "elevator zero",
+    "NAV mode",
+    "course runway direction",
+    "front-wheel steering",
+    "gear lever down",
+    "brakes released",
+    "flaps take-off",
+)
+
+
+class Witness:
+    """Sees everything."""
+
+    def __init__(self) -> None:
+        self.events: list[Event] = []
+        self.modes: list[dict[str, str]] = []
+        self.steps = 0
+        self.last: State | None = None
+
+    def see(self, state: State, commands: Commands, pilot: Reporter) -> None:
+        self.steps += 1
+        self.last = state
+        if not self.modes or self.modes[-1] != dict(pilot.modes):
+            self.modes.append(dict(pilot.modes))
+
+    def note(self, event: Event) -> None:
+        self.events.append(event)
+
+
+@pytest.fixture(scope="module")
+def witness() -> Witness:
+    session, witness = Session("circuit"), Witness()
+    fly_mission(session.mission, session.manual, observers=[FlightLog(), witness])
+    return witness
+
+
+def test_the_take_off_procedure_is_that_of_the_paper_item_by_item(witness: Witness) -> None:
+    done = [event.name for event in witness.events if event.kind == "procedure" and event.phase == "T/O.run"]
+    assert tuple(done) == FIG_10
+
+
+def test_phases_follow_the_edges_of_the_graph(witness: Witness) -> None:
+    phases = [event.name for event in witness.events if event.kind == "phase"]
+    assert set(pairwise(phases)) <= set(EDGES)
+    assert phases[-1] == "END"
+
+
+def test_every_phase_change_is_preceded_by_its_checklist_items(witness: Witness) -> None:
+    for before, event in pairwise(witness.events):
+        if event.kind == "phase":
+            assert before.kind == "checklist"
+            assert event.reason.endswith(before.name)
+
+
+def test_rotation_and_lift_off_are_decided_by_the_checklists_of_figure_7(witness: Witness) -> None:
+    items = [(event.phase, event.name) for event in witness.events if event.kind == "checklist"]
+    assert ("T/O.run", "rotation speed") in items
+    assert ("T/O.rotation", "lift-off speed") in items
+    assert ("T/O.rotation", "main gear off the ground") in items
+
+
+def test_each_super_mode_has_exactly_one_sub_mode_at_any_time(witness: Witness) -> None:
+    for modes in witness.modes:
+        assert set(modes) == set(MODES)
+        for name in ("SPD", "HP", "VP", "INN"):
+            assert modes[name].split()[0] in MODES[name]
+
+
+def test_every_mode_change_says_why(witness: Witness) -> None:
+    changes = [event for event in witness.events if event.kind == "mode"]
+    assert len(changes) > 20
+    assert all("; was " in event.reason for event in changes)
+
+
+def test_the_pilot_acts_24_times_a_second(witness: Witness) -> None:
+    assert witness.last is not None
+    assert witness.steps == pytest.approx(witness.last.time * 24, abs=1.5)
