@@ -49,7 +49,7 @@ def find_mission(mission: str | PathLike[str]) -> Path:
         exists = path.exists()
     except (OSError, ValueError):  # too long, or a NUL character
         exists = False
-    if exists:
+    if exists and text:
         raise InputError("is not a file.", file=text, remedy="give a mission's name or its XML file.")
     close = did_you_mean(path.stem if path.suffix == ".xml" else text, known)
     raise InputError(

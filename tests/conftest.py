@@ -16,7 +16,7 @@ from harness.session import Session
 from harness.validation import judge_run
 
 Command = Callable[..., subprocess.CompletedProcess[str]]
-PATIENCE = 250.0  # s
+PATIENCE = 600.0  # s
 
 
 class Flight(NamedTuple):

@@ -165,4 +165,4 @@ def _rates(run: Run) -> str:
     if len(time) < 2:
         return "never in the air"
     steps = np.diff(time)
-    return f"looked at every {np.min(steps[steps > 0]):.2f} s at the runway to {np.median(steps):.0f} s aloft"
+    return f"looked at every {np.min(steps[steps > 0]):.2f} s at the runway to {np.median(steps):.2f} s aloft"

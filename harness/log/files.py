@@ -9,7 +9,7 @@ import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from itertools import count
-from os import PathLike
+from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, Self
 
@@ -47,6 +47,8 @@ class RunFolder:
     """
 
     def __init__(self, out: str | PathLike[str], name: str) -> None:
+        if not fspath(out):
+            raise OutputError("the output folder has no name.", remedy="choose a folder: --out DIR.")
         self._out = Path(out)
         self._name = re.sub(r"[^A-Za-z0-9_-]+", "-", name)[:60].strip("-") or "run"
         self.path = self._out / f".{self._name}-{secrets.token_hex(4)}.partial"
@@ -93,6 +95,8 @@ def writing(path: Path) -> Iterator[None]:
         yield
     except (OSError, ValueError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        if isinstance(error, FileExistsError):
+            reason = "it is a file, not a folder"
         raise OutputError(
             f"cannot be written: {reason}.", path=path, remedy="choose another folder: --out DIR."
         ) from error

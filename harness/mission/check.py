@@ -201,7 +201,7 @@ class _Checker:
             steep = f"{show(abs(rise), 'ft')} in {show(distance, 'NM', 1)} is a {way} of {angle:.0f} deg"
             what = f"{leg.name}: {leg.level} cannot be reached: {steep}"
             remedy = f"at most {STEEPEST_LEG / DEG:.0f} deg: another level, or a longer leg"
-            yield self._fault(f"route/waypoint[{leg.name}]/level", what, remedy)
+            yield self._fault(f"{leg.path}/level", what, remedy)
 
     def _route(self) -> Iterator[InputError]:
         before, start = "the departure runway", Position(*self.departure.point(self.departure.length))

@@ -91,7 +91,8 @@ def _down(source: Source, parent: Element, tag: str, name: str, override: Overri
         raise _wrong(override, f"there are {len(named)} <{tag}>", f"say which: {tag}[{names[0]}]")
     if tag not in _OPTIONAL:
         what = f'no <{tag}> is called "{shorten(name)}"' if found and name else f"the mission has no <{tag}>"
-        raise _wrong(override, what, did_you_mean(name, names) if name else "")
+        remedy = did_you_mean(name, names) or f"write the <{tag}> into a mission file, and change it there"
+        raise _wrong(override, what, remedy)
     made = etree.SubElement(parent, tag, {"name": name} if name else {})
     source.origins[made, ""] = (override.file, override.line)
     return made

@@ -58,7 +58,7 @@ class ControlSystem:
         """Put a setting (see `vocabulary.SETTINGS`) to a value."""
         if name == "thrust":
             lever = self.manual.thrust[to]
-            self.speed.lever = lever
+            self.speed.hand = lever
             self.speed.highest_lever = max(lever, self.manual.thrust["climb"])
         elif name == "flaps":
             self._settings = self._settings._replace(flap=self.manual.flap(to).position)
@@ -177,9 +177,11 @@ class ControlSystem:
         self._bank = quantised(self.horizontal.update(state, route.guidance))
         speed.observe(state, dt)
         path = 0.0
-        if speed.sub_mode == "PITCH":
-            path = speed.path(state, self.target_cas)
-        elif speed.sub_mode == "THR" and not self._taxiing:
+        if speed.sub_mode != "THR":
+            speed.move(dt)
+            if speed.sub_mode == "PITCH":
+                path = speed.path(state, self.target_cas)
+        elif not self._taxiing:
             speed.update(state, self.target_cas, self.vertical.path_angle, dt)
         self.vertical.aim(state, level_error, route.glide_slope, route.distance_to_threshold, path)
         self._steer(state, dt)

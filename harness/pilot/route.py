@@ -89,7 +89,11 @@ class NavigationComputer:
 
     def speed_target(self, state: State) -> float:
         """The active leg's speed as CAS, m/s."""
-        kind, value = self.leg.speed
+        return self._cas_of(self.leg, state)
+
+    @staticmethod
+    def _cas_of(leg: Leg, state: State) -> float:
+        kind, value = leg.speed
         if kind == "CAS":
             return value
         if kind == "MACH":
@@ -157,6 +161,8 @@ class NavigationComputer:
     def _lead(self, state: State) -> float:
         """How far before a fly-by waypoint the turn begins, m."""
         speed = hypot(state.velocity_north, state.velocity_east)
+        if self.waypoints_remaining > 1:  # the turn is flown while the speed changes to that of the next leg
+            speed *= 0.5 * (1.0 + self._cas_of(self.legs[self.index + 1], state) / max(state.cas, 1.0))
         turn = min(abs(wrap(self._next_course() - self._line.course)), LONGEST_LEAD_TURN)
         radius = speed * speed / (GRAVITY * tan(self._turn_bank))
         return radius * tan(0.5 * turn) + (ROLL_IN_TIME * speed if turn > 2 * DEG else 0.0)

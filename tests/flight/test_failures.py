@@ -288,8 +288,18 @@ def test_where_nothing_can_be_written_nothing_is_flown(
     err = capsys.readouterr().err
     assert err.startswith(f"harness: {out}: cannot be written: ")
     assert "--out DIR" in err
+    assert where != "a file" or "it is a file, not a folder" in err
     assert sorted(entry.name for entry in tmp_path.rglob("*")) == ["file", "locked"]
     assert (tmp_path / "file").read_text("utf-8") == "mine"
+
+
+def test_an_output_folder_without_a_name_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["fly", BASE, "--out", ""]) == 2
+    assert "the output folder has no name" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_disk_that_fills_up_leaves_nothing_half_written(

@@ -17,7 +17,11 @@ def test_a_flight_is_judged_quantity_by_quantity(harness: Command):
 
 def test_a_flight_that_does_not_complete_is_outside(harness: Command, repository, tmp_path):
     text = (repository / "missions" / "circuit.xml").read_text("utf-8")
-    stuck = '<phase name="T/O.run"><checklist to="T/O.rotation"><item name="rotation speed" quantity="cas" at-least="300 kt"/></checklist></phase></mission>'
+    stuck = (
+        '<phase name="T/O.run"><checklist to="T/O.rotation">'
+        '<item name="rotation speed" quantity="cas" at-least="300 kt"/>'
+        "</checklist></phase></mission>"
+    )
     (tmp_path / "stuck.xml").write_text(text.replace("</mission>", stuck), "utf-8")
     result = harness("validate", "stuck.xml")
     assert result.returncode == 1, result.stderr

@@ -172,10 +172,10 @@ def test_speed_by_thrust_settles_within_two_knots_and_the_lever_comes_to_rest(ma
     for _ in range(int(240 / 0.5)):
         now = aircraft.state()
         mode.observe(now, 0.5)
-        lever = mode.update(now, target, 0.0, 0.5)
+        mode.update(now, target, 0.0, 0.5)
         for _ in range(12):
-            aircraft.fly(lever, STEP)
-        levers.append(lever)
+            aircraft.fly(mode.lever, STEP)
+        levers.append(mode.lever)
         speeds.append(aircraft.cas)
     assert max(speeds) < target + 2 * KT
     assert speeds[-1] == pytest.approx(target, abs=0.1 * KT)
@@ -186,7 +186,7 @@ def test_speed_by_pitch_never_dives_in_a_climb_nor_climbs_in_a_descent(manual: F
     mode = SpeedMode(manual.gains)
     slow = state(cas=60.0, tas=60.0)
     mode.observe(slow, 0.5)
-    mode.lever = 0.9
+    mode.hand = 0.9
     assert mode.path(slow, 100.0) >= manual.gains["least-climb-angle"]
-    mode.lever = 0.0
+    mode.hand = 0.0
     assert mode.path(state(cas=150.0, tas=150.0), 80.0) <= -manual.gains["least-descent-angle"]

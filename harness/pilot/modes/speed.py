@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from harness.numerics import LowPass, clamp, quantised
+from harness.numerics import LowPass, approach, clamp, quantised
 from harness.state import State
 from harness.world.atmosphere import GRAVITY
 
@@ -20,12 +20,14 @@ class SpeedMode:
 
     def __init__(self, gains: Mapping[str, float]) -> None:
         self.sub_mode = "OFF"
-        self.lever = 0.0  # set by hand
+        self.lever = 0.0  # where the levers are
+        self.hand = 0.0  # where the hand puts them, in OFF at once and in PITCH gently
         self.highest_lever = 1.0
         self._speed_gain = 1.0 / gains["speed-time-constant"]
         self._most_acceleration = gains["speed-acceleration"]
         self._lever_gain = gains["lever-per-energy"]
         self._lever_integral = gains["lever-per-energy"] / gains["lever-integral-time"]
+        self._hand_rate = gains["lever-rate"]
         self._climb = (gains["least-climb-angle"], gains["climb-angle-limit"])
         self._descent = (-gains["descent-angle-limit"], -gains["least-descent-angle"])
         self._excess = LowPass(gains["excess-energy-filter"])
@@ -46,21 +48,25 @@ class SpeedMode:
         self._cas = state.cas
         self._excess.update(state.vertical_speed / max(state.tas, 1.0) + _in_g(rate, state), dt)
 
-    def update(self, state: State, target: float, path: float, dt: float) -> float:
-        """THR: return the lever for the CAS `target` (m/s) on the flight `path` (rad)."""
+    def move(self, dt: float) -> None:
+        """OFF and PITCH: let the levers follow the hand for `dt` seconds."""
+        step = self._hand_rate * dt if self.sub_mode == "PITCH" else 1e9
+        self.lever = quantised(approach(self.lever, self.hand, step))
+
+    def update(self, state: State, target: float, path: float, dt: float) -> None:
+        """THR: move the lever for the CAS `target` (m/s) on the flight `path` (rad)."""
         energy = self._acceleration(state, target) + path - self._excess.value
         lever = self._integral + self._lever_gain * energy
         if 0.0 < lever < self.highest_lever or (lever <= 0.0) == (energy > 0.0):
             self._integral += self._lever_integral * energy * dt
         self.lever = quantised(clamp(lever, 0.0, self.highest_lever))
-        return self.lever
 
     def path(self, state: State, target: float) -> float:
         """PITCH: return the flight path (rad) that brings the CAS to `target` with the thrust there is.
 
         It never gives up the climb to gain speed nor the descent to lose it.
         """
-        low, high = self._climb if self.lever > 0.0 else self._descent
+        low, high = self._climb if self.hand > 0.0 else self._descent
         return clamp(self._excess.value - self._acceleration(state, target), low, high)
 
     def _acceleration(self, state: State, target: float) -> float:
