@@ -5,17 +5,24 @@ The words are in `harness.vocabulary`; the names an aircraft adds (speeds, setti
 
 import re
 from collections.abc import Iterable, Iterator
+from math import inf
 from typing import NamedTuple, TypeVar
 
 from harness import vocabulary
 from harness.errors import InputError, did_you_mean
 from harness.plan import RELATIONS, Checklist, Condition, PhasePlan, Step
-from harness.units import UnitError, parse, parse_speed
+from harness.units import DEG, UnitError, parse, parse_speed, show
 from harness.xml_source import Element, Source, children
 
 _OFFSET = re.compile(r"(\S+) ([+-]) (.+)")
 _ALWAYS = frozenset({"name", "remove", "set", "mode", "to"})
 _POSITIONS = {"up": 0.0, "down": 1.0}
+
+_STEEPEST = {
+    "pitch": 30 * DEG,
+    "bank": 60 * DEG,
+    "angle": 15 * DEG,
+}  # what a step may ask for: the aircraft's own limits
 
 Meaning = TypeVar("Meaning")
 
@@ -221,6 +228,9 @@ def _check_mode(action: dict[str, str], words: Words) -> None:
         if reference.name:
             names = words.speeds if argument.kind == "speed-target" else frozenset()
             _known(reference.name, dict.fromkeys((*names, *argument.words), ""), f"a {name}")
+        elif abs(reference.offset) > _STEEPEST.get(name, inf):
+            most = show(_STEEPEST[name], "deg")
+            raise UnitError(f'{name}="{text}" is no attitude of a transport aircraft; at most {most}')
 
 
 def _known(word: str, meanings: dict[str, Meaning], what: str) -> Meaning:

@@ -7,12 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.log.run import Event, History
-from harness.state import BRISK, Commands, State
+from harness.state import MEDIUM_PERIOD, Commands, State, close_to_ground
 
 Floats = NDArray[np.float64]
 
 LOW = 300.0  # m
-OVER_THE_RUNWAY = 30.0  # m
 BOUNCE = 5.0
 """Wheels that touch again this soon after leaving the ground, s, have bounced: no other touchdown."""
 
@@ -40,7 +39,7 @@ class Reporter(Protocol):
 
 
 class FlightLog:
-    """Records the flight at 1 Hz, at 4 Hz near the ground, at 12 Hz on the runway and just above it; and every event.
+    """Records the flight at 1 Hz, at 2 Hz near the ground, at 12 Hz on the runway and just above it; and every event.
 
     A record keeps State as the pilot saw it.
     """
@@ -141,10 +140,10 @@ class FlightLog:
 
 
 def _interval(state: State) -> int:
-    """Pilot steps to the next record."""
-    if state.height > LOW:
-        return 24
-    return 2 if state.height < OVER_THE_RUNWAY and state.cas > BRISK else 6
+    """Pilot steps to the next record: no more often than most of State is renewed."""
+    if close_to_ground(state.height, state.cas):
+        return 2
+    return MEDIUM_PERIOD if state.height < LOW else 24
 
 
 def _integral(time: Floats, rate: Floats) -> Floats:
