@@ -36,12 +36,15 @@ def fly(
     that folder keeps the run (`run.folder`); without, nothing is written. `progress` sees every step and
     event.
 
-    Raises InputError, OutputError before flying; FlightError when the flight cannot be completed (with `out`,
-    what was flown is kept).
+    Raises InputError, OutputError before flying; FlightError when the flight cannot be completed: what was flown is
+    its `run`, and kept in `out`.
     """
+    from harness.errors import FlightError
     from harness.session import Session
 
     run, stopped = Session(mission, overrides).fly(out=out, rate=rate, realtime=realtime, progress=progress)
+    if isinstance(stopped, FlightError):
+        stopped.run = run
     if stopped is not None:
         raise stopped
     return run

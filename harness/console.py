@@ -56,13 +56,16 @@ class Console:
 
 
 def live_line(state: State, pilot: Reporter, elapsed: float) -> str:
-    """Phase, modes, altitude, speed, distance to go and times real time, after `elapsed` s on the wall."""
+    """Phase, altitude, speed, distance to go, times real time, modes and what is waited for.
+
+    `elapsed` is in seconds on the wall.
+    """
     modes = " | ".join(mode for name, mode in pilot.modes.items() if name not in STANDING)
     to_go = pilot.targets.get("distance_to_go", 0.0) / NM
     faster = state.time / elapsed if elapsed > 0 else 0.0
-    return (  # the modes last: on a narrow terminal they may be cut off
+    return (  # the least urgent last: on a narrow terminal it is cut off
         f"{clock(state.time)} {pilot.phase:<16}{state.altitude / FT:6.0f} ft{state.cas / KT:4.0f} kt"
-        f"{to_go:6.1f} NM to go{faster:5.0f} x  {modes}"
+        f"{to_go:6.1f} NM to go{faster:5.0f} x  {modes}  waits for {pilot.waiting}"
     )
 
 

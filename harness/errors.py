@@ -15,6 +15,7 @@ HarnessError
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 
 class HarnessError(Exception):
@@ -119,6 +120,7 @@ class FlightError(HarnessError):
         self.required = required
         self.achieved = achieved
         self.knob = knob
+        self.run: Any = None  # what was flown (a harness.log.Run), when raised by harness.fly
 
     def __str__(self) -> str:
         waits = f'still waits for "{self.waiting}"' if self.waiting else ""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import cos, sin
 from typing import Protocol
 
-from harness.errors import FlightError, TimeLimitError
+from harness.errors import FlightError, InputError, TimeLimitError
 from harness.log import Event, Reporter
 from harness.manual import FlightManual
 from harness.mission.model import Mission
@@ -15,7 +15,8 @@ from harness.resources import root
 from harness.state import Commands, State
 from harness.world import earth
 
-PILOT_RATE = 24  # pilot steps a second; every frame rate offered is a multiple
+PILOT_RATE = 24  # pilot steps a second
+RATES = (120, 240, 480)  # frames a second
 TIME_LIMIT = 8 * 3600.0  # s: longer than the fuel of a transport aircraft of this class lasts at low level
 LINE_UP = 30.0  # m past the threshold, where a mission without a stand begins
 
@@ -40,7 +41,7 @@ def fly_mission(
 ) -> None:
     """Fly `mission` from its beginning until the pilot is done.
 
-    `rate` is frames a second, a multiple of PILOT_RATE. Raises FlightError when the mission cannot be completed.
+    `rate` is frames a second, one of RATES. Raises FlightError when the mission cannot be completed.
     """
     pilot, plant = prepare(mission, manual, rate=rate)
     pilot.listeners.extend(observer.note for observer in observers)
@@ -62,7 +63,9 @@ def fly_mission(
 
 
 def prepare(mission: Mission, manual: FlightManual, *, rate: int) -> tuple[Pilot, JSBSimPlant]:
-    """Make the pilot and the plant of a mission, ready for the first step."""
+    """Make the pilot and the plant of a mission, ready for the first step. Raises InputError."""
+    if rate not in RATES:
+        raise InputError(f"{rate} frames a second are not possible", remedy="choose 120, 240 or 480")
     database = load()
     manual = manual.with_mission(mission)
     departure = database.runway(mission.departure.airport, mission.departure.runway)

@@ -18,6 +18,7 @@ _OFFSET = re.compile(r"(\S+) ([+-]) (.+)")
 _ALWAYS = frozenset({"name", "remove", "set", "mode", "to"})
 _POSITIONS = {"up": 0.0, "down": 1.0}
 
+_ONE_SIDED = frozenset({"brakes", "speedbrake", "ground-spoilers"})
 _STEEPEST = {
     "pitch": 30 * DEG,
     "bank": 60 * DEG,
@@ -206,8 +207,9 @@ def _check_setting(action: dict[str, str], words: Words) -> None:
         _known(action["to"], dict.fromkeys(choices[kind], ""), f"a position of {action['set']}")
         return
     value = parse(action["to"], kind)
-    if kind == "ratio" and not -1 <= value <= 1:
-        raise UnitError(f'to="{action["to"]}" is outside -1 .. 1; full travel is 1')
+    least = 0 if action["set"] in _ONE_SIDED else -1
+    if kind == "ratio" and not least <= value <= 1:
+        raise UnitError(f'to="{action["to"]}" is outside {least} .. 1; full travel is 1')
 
 
 def _check_mode(action: dict[str, str], words: Words) -> None:
@@ -217,6 +219,10 @@ def _check_mode(action: dict[str, str], words: Words) -> None:
     if arguments and not given:
         wanted = " or ".join(f'{name}="..."' for name in arguments)
         raise UnitError(f"{action['mode']} {action['to']} needs its argument; add {wanted}")
+    if len(given) > 1:
+        raise UnitError(
+            f"{' and '.join(sorted(given))} at once; {action['mode']} {action['to']} takes one of them"
+        )
     for name in sorted(given):
         argument = _known(name, arguments, f"an argument of {action['mode']} {action['to']}")
         text = action[name]

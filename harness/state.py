@@ -1,12 +1,15 @@
 """What crosses between pilot and plant: `State` one way, `Commands` the other. SI and radians throughout."""
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields
 from functools import partial
+from operator import attrgetter
 from typing import NamedTuple
 
 
-class State(NamedTuple):
-    """The aircraft as the pilot sees it at one instant.
+@dataclass(slots=True)
+class State:
+    """The aircraft as the pilot sees it: live, renewed in place by the plant. What is to be kept must be copied.
 
     Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres. On and just above
     the runway a plant renews all fields at every pilot step; elsewhere those of FAST, those of MEDIUM every
@@ -49,8 +52,11 @@ class State(NamedTuple):
     temperature: float  # static, K
 
 
-FAST = State._fields[:3]
-MEDIUM = State._fields[3:21]
+FIELDS: tuple[str, ...] = tuple(field.name for field in fields(State))
+values: Callable[[State], tuple[float, ...]] = attrgetter(*FIELDS)
+"""The numbers of a State, in the order of FIELDS."""
+FAST = FIELDS[:3]
+MEDIUM = FIELDS[3:21]
 MEDIUM_PERIOD = 12  # pilot steps
 SLOW_PERIOD = 24
 LOW = 100.0  # m above the ground
@@ -86,6 +92,5 @@ class Commands(NamedTuple):
     spoiler: float = 0.0  # ground spoilers
 
 
-new_state: Callable[[Iterable[float]], State] = partial(tuple.__new__, State)
 new_commands: Callable[[Iterable[float]], Commands] = partial(tuple.__new__, Commands)
 """From the values in order, without the length check of `_make`, which costs more than the rest."""

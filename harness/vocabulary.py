@@ -113,6 +113,10 @@ CONTROLS: tuple[str, ...] = ("thrust", "elevator", "aileron", "rudder", "steerin
 """Controls of the CTRL super-mode; each is DIRECT (the pilot's hand) or CONTROLLER."""
 
 
+INNER_MODES: tuple[str, ...] = ("PM", "RM", "LM")
+"""The inner modes: pitch, roll and directional loops of the aircraft that are engaged; OFF if none is."""
+
+
 class Argument(NamedTuple):
     """An argument of a sub-mode: its kind of value and the words it accepts."""
 
@@ -125,7 +129,7 @@ MODES: dict[str, dict[str, dict[str, Argument]]] = {
         "DIRECT": {"control": Argument("word", CONTROLS)},
         "CONTROLLER": {"control": Argument("word", CONTROLS)},
     },
-    "INN": {"AIRCRAFT": {}, "PILOT": {}},
+    "INN": {},  # not selected: the inner modes follow from the controls
     "SPD": {
         "OFF": {},
         "THR": {"speed": Argument("speed-target", ("leg-speed", "taxi"))},

@@ -57,6 +57,7 @@ def judge(run: Run, mission: Mission, manual: FlightManual, departure: Runway, a
     """Hold a flight against its bars."""
     found = measure(run, mission, manual, departure, arrival)
     completed = bool(run.summary["completed"])
+    closure = run.summary["mass_closure_kg"]
     return [
         Bar("flight completed", float(completed), "", 1.0, None, run.summary["reason"]),
         *_time(run, mission),
@@ -65,7 +66,7 @@ def judge(run: Run, mission: Mission, manual: FlightManual, departure: Runway, a
         *_runway(found, mission),
         *_landing(found, mission),
         *_never(run, manual, found.envelope),
-        Bar("mass closure", run.summary["mass_closure_kg"] or 0.0 if completed else nan, "kg", -0.1, 0.1),
+        Bar("mass closure", nan if closure is None else closure, "kg", -0.1, 0.1),
     ]
 
 

@@ -1,13 +1,14 @@
 """Watches a flight and remembers it. Made to cost next to nothing between two records."""
 
 from collections.abc import Mapping
+from copy import copy
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.log.run import Event, History
-from harness.state import MEDIUM_PERIOD, Commands, State, close_to_ground
+from harness.state import FIELDS, MEDIUM_PERIOD, Commands, State, close_to_ground, values
 
 Floats = NDArray[np.float64]
 
@@ -37,6 +38,11 @@ class Reporter(Protocol):
         """What is aimed at."""
         ...
 
+    @property
+    def waiting(self) -> str:
+        """The open checklist item that the next phase waits for."""
+        ...
+
 
 class FlightLog:
     """Records the flight at 1 Hz, at 2 Hz near the ground, at 12 Hz on the runway and just above it; and every event.
@@ -48,7 +54,7 @@ class FlightLog:
         self.events: list[Event] = []
         self.passages: list[tuple[Event, State]] = []
         self.moments: dict[str, State] = {}
-        self._rows: list[tuple[State, Commands, str, tuple[str, ...], tuple[float, ...]]] = []
+        self._rows: list[tuple[tuple[float, ...], Commands, str, tuple[str, ...], tuple[float, ...]]] = []
         self._mode_names: tuple[str, ...] = ()
         self._target_names: tuple[str, ...] = ()
         self._countdown = 1
@@ -75,7 +81,7 @@ class FlightLog:
             self._brakes(state, commands, pilot)
         if self._passed:
             self._aloft = state.height > LOW
-            self.passages += [(event, state) for event in self._passed]
+            self.passages += [(event, copy(state)) for event in self._passed]
             self._passed.clear()
         if self._countdown <= 0:
             self._countdown = _interval(state)
@@ -92,13 +98,14 @@ class FlightLog:
             self._brake = None  # brakes may be off already when the take-off run begins: look again
 
     def history(self) -> History:
-        """The columns recorded so far, ending with the last step seen."""
-        if self._last and self._commands and self._pilot and self._rows[-1][0] is not self._last:
-            self._record(self._last, self._commands, self._pilot)
+        """The columns recorded so far, ending with the aircraft as it is now."""
+        last = self._last
+        if last and self._commands and self._pilot and self._rows[-1][0][0] != last.time:
+            self._record(last, self._commands, self._pilot)
         if not self._rows:
             return {"time": np.empty(0)}
         states, commands, phases, modes, targets = zip(*self._rows, strict=True)
-        numbers = dict(zip(State._fields, np.array(states).T.copy(), strict=True))
+        numbers = dict(zip(FIELDS, np.array(states).T.copy(), strict=True))
         numbers["distance"] = _integral(
             numbers["time"], np.hypot(numbers["velocity_north"], numbers["velocity_east"])
         )
@@ -120,23 +127,25 @@ class FlightLog:
         modes, targets = pilot.modes, pilot.targets
         if not self._rows:
             self._mode_names, self._target_names = tuple(modes), tuple(targets)
-        self._rows.append((state, commands, pilot.phase, tuple(modes.values()), tuple(targets.values())))
+        self._rows.append(
+            (values(state), commands, pilot.phase, tuple(modes.values()), tuple(targets.values()))
+        )
 
     def _wheels(self, state: State) -> None:
         self._on_ground = state.main_on_ground
         if not state.main_on_ground:
             self._left_ground = state.time
             if "touchdown" not in self.moments:
-                self.moments["lift-off"] = state
+                self.moments["lift-off"] = copy(state)
         elif state.time - self._left_ground > BOUNCE:
-            self.moments["touchdown"] = state
+            self.moments["touchdown"] = copy(state)
 
     def _brakes(self, state: State, commands: Commands, pilot: Reporter) -> None:
         self._brake = commands.brake
         if commands.brake == 0.0:
-            self.moments.setdefault("off blocks", state)
+            self.moments.setdefault("off blocks", copy(state))
             if pilot.phase.startswith("T/O"):
-                self.moments.setdefault("brake release", state)
+                self.moments.setdefault("brake release", copy(state))
 
 
 def _interval(state: State) -> int:

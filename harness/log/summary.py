@@ -4,6 +4,7 @@ import math
 import platform
 from collections.abc import Mapping
 from importlib.metadata import version
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from harness.log.record import FlightLog
 from harness.log.run import Event, History, Passage, Run
 from harness.state import State
-from harness.world import earth
+from harness.world.local import LocalFrame, Point
 
 SCHEMA = 1
 LIBRARIES = ("jsbsim", "numpy")
@@ -38,7 +39,7 @@ def conclude(
     simulated = float(history["time"][-1]) if len(history["time"]) else 0.0
     summary: dict[str, Any] = {"schema": SCHEMA, **identity, "completed": not failure, "reason": failure}
     last = [passage for passage in passages if passage.name == last_waypoint]
-    summary |= _flight(log, history, last)
+    summary |= _flight(log, history, last, completed=not failure)
     summary["phases"] = _phases(log.events, history)
     summary |= {
         "simulated_time_s": simulated,
@@ -49,12 +50,14 @@ def conclude(
     return Run(history, tuple(log.events), passages, _finite(summary), mission_text)
 
 
-def _flight(log: FlightLog, history: History, last: list[Passage]) -> dict[str, float | None]:
+def _flight(
+    log: FlightLog, history: History, last: list[Passage], *, completed: bool
+) -> dict[str, float | None]:
     """Times, distances and masses; None for what the flight did not come to."""
     off_blocks, release, lift_off, touchdown = (
         log.moments.get(name) for name in ("off blocks", "brake release", "lift-off", "touchdown")
     )
-    end = float(history["time"][-1]) if len(history["time"]) else None
+    end = float(history["time"][-1]) if completed else None
     result: dict[str, float | None] = {
         "brake_release_s": _time(release),
         "lift_off_s": _time(lift_off),
@@ -134,8 +137,21 @@ def _closest(history: History, begin: float, end: float, fix: tuple[float, float
     if fix is None:
         return math.nan
     window = (history["time"] >= begin) & (history["time"] <= end)
-    track = zip(history["latitude"][window], history["longitude"][window], strict=True)
-    return min((earth.inverse(*position, *fix)[2] for position in track), default=math.nan)
+    frame = LocalFrame(*fix)
+    track = [
+        frame.point(*position)
+        for position in zip(history["latitude"][window], history["longitude"][window], strict=True)
+    ]
+    return min((_from_origin(a, b) for a, b in pairwise(track)), default=math.nan)
+
+
+def _from_origin(a: Point, b: Point) -> float:
+    """Distance from the origin to the straight line from a to b: between two records the track is straight."""
+    north, east = b[0] - a[0], b[1] - a[1]
+    length = north * north + east * east
+    share = -(a[0] * north + a[1] * east) / length if length else 0.0
+    share = min(max(share, 0.0), 1.0)
+    return math.hypot(a[0] + share * north, a[1] + share * east)
 
 
 def _time(moment: State | None) -> float | None:

@@ -271,6 +271,13 @@ class _Checker:
                 yield from check_step(action, words)
         for plan in self.mission.phases.values():
             yield from self._removals(plan)
+            for checklist in (
+                self.flown.phases[plan.name].checklists if plan.name in self.flown.phases else ()
+            ):
+                if not checklist.items:
+                    what = f'nothing is left of the checklist from "{plan.name}" to "{checklist.to}"'
+                    remedy = "leave one item: an empty checklist is complete at once"
+                    yield InputError(what, file=checklist.file, line=checklist.line, remedy=remedy)
 
     def _removals(self, plan: PhasePlan) -> Iterator[InputError]:
         mine = self.manual.phases.get(plan.name, PhasePlan(plan.name, (), ()))

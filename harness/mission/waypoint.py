@@ -21,6 +21,8 @@ def read_leg(source: Source, database: Database, element: Element) -> Leg:
     station = _station(source, database, element)
     course = _course(source, element, mode, station)
     turn = cast(Turn, element.get("turn", "fly-by" if mode == "direct" else "fly-over"))
+    if mode == "homing" and turn == "fly-by":
+        source.fault("a homing leg ends over its station", element, "turn", 'delete turn="fly-by"')
     return Leg(
         name=element.get("name", ""),
         fix=_fix(source, element, mode, station, course),

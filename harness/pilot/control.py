@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from math import hypot, inf
+from typing import NamedTuple
 
 from harness.manual import FlightManual
 from harness.navigation.database import Runway
@@ -14,7 +15,7 @@ from harness.pilot.route import NavigationComputer
 from harness.plan_reader import parse_reference
 from harness.state import Commands, State
 from harness.units import parse
-from harness.vocabulary import CONTROLS
+from harness.vocabulary import CONTROLS, INNER_MODES
 from harness.world.local import LocalFrame
 
 LEVER_RATE = 0.1  # 1/s, while taxiing
@@ -22,6 +23,18 @@ BRAKE_RATE = 0.5  # 1/s, while taxiing
 HARDEST_TAXI_BRAKE = 0.5
 STANDING_BRAKE = 0.4  # holds the aircraft at the end of a taxi path
 _FIELDS = {"ground-spoilers": "spoiler", "brakes": "brake"}  # settings whose Commands field has another name
+
+
+class TaxiGains(NamedTuple):
+    """The gains of the flight manual whose names begin with `taxi-`, SI."""
+
+    speed: float
+    turn_radius: float
+    look_ahead: float
+    look_ahead_time: float
+    lever_gain: float
+    lever_limit: float
+    brake_gain: float
 
 
 class ControlSystem:
@@ -39,7 +52,6 @@ class ControlSystem:
         self.vertical = VerticalMode(gains, step)
         self.horizontal = HorizontalMode(gains)
         self.owners = dict.fromkeys(CONTROLS, "DIRECT")
-        self.inner = "AIRCRAFT"
         self.runway = Centreline(runway)
         self.target_cas = 0.0  # m/s
         self.taxi_distance = inf  # to the end of the taxi path, m
@@ -50,6 +62,8 @@ class ControlSystem:
         self._taxi_brake = 0.0
         self._speed_words = "leg-speed"
         self._speed_value = 0.0
+        self._climb_lever = manual.thrust["climb"]
+        self._taxi_gains = TaxiGains(*(gains[f"taxi-{name.replace('_', '-')}"] for name in TaxiGains._fields))
         self._bank = self._wheel = self._rudder = self._coordinate = 0.0
 
     # What procedures do.
@@ -59,7 +73,7 @@ class ControlSystem:
         if name == "thrust":
             lever = self.manual.thrust[to]
             self.speed.hand = lever
-            self.speed.highest_lever = max(lever, self.manual.thrust["climb"])
+            self.speed.highest_lever = max(lever, self._climb_lever)
         elif name == "flaps":
             self._settings = self._settings._replace(flap=self.manual.flap(to).position)
         elif name == "gear":
@@ -73,7 +87,6 @@ class ControlSystem:
         """Select a sub-mode; `action` holds mode, to and the arguments of `vocabulary.MODES`."""
         select = {
             "CTRL": self._select_owner,
-            "INN": self._select_inner,
             "SPD": self._select_speed,
             "HP": self._select_horizontal,
             "VP": self._select_vertical,
@@ -86,9 +99,6 @@ class ControlSystem:
         self.owners[control] = to
         if control == "thrust" and to == "DIRECT":
             self.speed.select("OFF")
-
-    def _select_inner(self, action: Mapping[str, str], state: State) -> None:
-        self.inner = action["to"]
 
     def _select_speed(self, action: Mapping[str, str], state: State) -> None:
         to = action["to"]
@@ -148,8 +158,7 @@ class ControlSystem:
                 frame.point(state.latitude, state.longitude),
                 *(frame.point(*point) for point in points),
             ]
-            gains = self.manual.gains
-            self._taxi = TaxiPath(frame, corners, gains["taxi-turn-radius"], gains["taxi-speed"])
+            self._taxi = TaxiPath(frame, corners, self._taxi_gains.turn_radius, self._taxi_gains.speed)
             self.taxi_distance = inf
 
     @property
@@ -159,9 +168,10 @@ class ControlSystem:
         vertical, detail = self.vertical, self.vertical.guidance
         if vertical.sub_mode == "PATH":
             detail = "V/S" if vertical.vertical_speed is not None else str(vertical.angle)
+        inner = [self.owners[control] == "CONTROLLER" for control in ("elevator", "aileron", "rudder")]
         return {
             "CTRL": f"direct: {' '.join(direct)}" if direct else "controller",
-            "INN": self.inner,
+            "INN": " ".join(name for name, on in zip(INNER_MODES, inner, strict=True) if on) or "OFF",
             "SPD": self.speed.sub_mode,
             "HP": f"{self.horizontal.sub_mode} {self.horizontal.guidance}".strip(),
             "VP": f"{vertical.sub_mode} {detail}".strip(),
@@ -223,19 +233,17 @@ class ControlSystem:
 
     def _taxi_along(self, state: State, dt: float) -> float:
         """Set lever and brakes for the speed the taxi path allows, and return the nose wheel."""
-        gains = self.manual.gains
+        gains = self._taxi_gains
         speed = hypot(state.velocity_north, state.velocity_east)
         wheel, allowed = 0.0, 0.0
         if self._taxi is not None:
-            look_ahead = max(gains["taxi-look-ahead"], gains["taxi-look-ahead-time"] * speed)
+            look_ahead = max(gains.look_ahead, gains.look_ahead_time * speed)
             error, allowed, self.taxi_distance = self._taxi.follow(state, look_ahead)
             wheel = self._steering.pursue(state, error, look_ahead)
         self.target_cas = allowed
         excess = speed - allowed
-        lever = clamp(-excess * gains["taxi-lever-gain"], 0.0, gains["taxi-lever-limit"])
+        lever = clamp(-excess * gains.lever_gain, 0.0, gains.lever_limit)
         self.speed.lever = quantised(approach(self.speed.lever, lever, LEVER_RATE * dt))
-        brake = (
-            clamp(excess * gains["taxi-brake-gain"], 0.0, HARDEST_TAXI_BRAKE) if allowed else STANDING_BRAKE
-        )
+        brake = clamp(excess * gains.brake_gain, 0.0, HARDEST_TAXI_BRAKE) if allowed else STANDING_BRAKE
         self._taxi_brake = quantised(approach(self._taxi_brake, brake, BRAKE_RATE * dt))
         return wheel

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from math import inf, nan
 from typing import NamedTuple
 
-from harness.errors import StuckError
+from harness.errors import FlightError, StuckError
 from harness.log.run import Event
 from harness.manual import FlightManual
 from harness.mission.model import Leg, Mission
@@ -13,7 +13,7 @@ from harness.numerics import wrap
 from harness.pilot.checklist import Item, OpenChecklist, item, prepared
 from harness.pilot.control import ControlSystem
 from harness.pilot.machine import END, START, PhaseGraph
-from harness.pilot.route import NavigationComputer, Passage
+from harness.pilot.route import NavigationComputer
 from harness.plan import Step
 from harness.state import MEDIUM_PERIOD, Commands, State, close_to_ground, new_commands
 
@@ -50,6 +50,7 @@ class Pilot:
         self._fly = self.control.vertical.fly
         self.phase = START
         self.phase_begin = 0.0
+        self._entered_because = ""
         self.done = False  # the mission is complete
         self.level_error = 0.0  # height of the wanted level above the aircraft, m
         self.modes: Mapping[str, str] = self.control.modes
@@ -85,11 +86,18 @@ class Pilot:
         }
 
     @property
-    def waiting(self) -> Sequence[tuple[str, Sequence[Item]]]:
-        """For each way out of the phase, the checklist items that are still open."""
+    def waiting(self) -> str:
+        """What the pilot waits for: the first open item of the checklist that is nearest to complete."""
+        item = self._open_item()
+        if item is None or self._state is None:
+            return ""
+        return f"{item.condition.name}: {item.achieved(self._state)}, {item.wanted(self._state)}"
+
+    def _open_item(self) -> Item | None:
         if self._state is None:
-            return ()
-        return [(checklist.to, checklist.waiting(self._state)) for checklist in self._checklists]
+            return None
+        ways = [checklist.waiting(self._state) for checklist in self._checklists]
+        return min((items for items in ways if items), key=len, default=[None])[0]
 
     def act(self, state: State) -> Commands:
         """Decide, from the aircraft's state, what to command now.
@@ -122,7 +130,7 @@ class Pilot:
             if state.time > self._deadline:
                 self._give_up(state)
         while self._pending and all(entry.holds(state) for entry in self._pending[0].when):
-            self.carry_out(self._pending.pop(0).step, state)
+            self._carry_out(self._pending.pop(0), state)
             self._watch()
         if outer:
             period = 1 if close_to_ground(state.height, state.cas) else MEDIUM_PERIOD
@@ -153,14 +161,20 @@ class Pilot:
 
     # Procedures.
 
-    def carry_out(self, step: Step, state: State) -> None:
-        """Do one step of a procedure."""
+    def _carry_out(self, ready: _ReadyStep, state: State) -> None:
+        conditions = [f"{item.achieved(state)}, {item.wanted(state)}" for item in ready.when]
+        self._do(ready.step, state, "; ".join(conditions) or f"on entering {self.phase}")
+
+    def _do(self, step: Step, state: State, reason: str) -> None:
+        """Do one step of a procedure, or an action at a waypoint."""
         action = step.action
         if "set" in action:
             self.control.set(action["set"], action["to"])
         else:
             self.control.select(action, state)
-        self._note("procedure", step.name, " ".join(f"{key}={value}" for key, value in action.items()))
+        self._note(
+            "procedure", step.name, reason, " ".join(f"{key}={value}" for key, value in action.items())
+        )
         modes = self.control.modes
         for name, sub_mode in modes.items():
             if self.modes[name] != sub_mode:
@@ -173,6 +187,13 @@ class Pilot:
         for entry in checklist.items:
             reason = f"{entry.achieved(state)}, {entry.wanted(state)}"
             self._note("checklist", entry.condition.name, reason)
+        if self.phase == "RTO":
+            raise FlightError(
+                "the take-off was rejected, the aircraft has stopped",
+                time=state.time,
+                phase=self.phase,
+                knob=self._entered_because,
+            )
         self._graph.enter(checklist.to)
         names = ", ".join(entry.condition.name for entry in checklist.items)
         self._enter(checklist.to, state, names)
@@ -181,6 +202,7 @@ class Pilot:
         self.phase = phase
         self.done = phase == END
         self.phase_begin = state.time
+        self._entered_because = reason
         self._note("phase", phase, reason)
         self._airborne_route = phase.startswith(("DEP", "ENR", "M/A", "APP"))
         self._approaching = phase.startswith(("APP", "LDG"))
@@ -212,10 +234,7 @@ class Pilot:
         self.control.plan_taxi([*arrival.taxi, *end], state)
 
     def _give_up(self, state: State) -> None:
-        # Of several ways out, the one with the fewest open items is the one the flight was on.
-        ways = [checklist.waiting(state) for checklist in self._checklists]
-        open_items = min(ways, key=len) if ways else []
-        first = open_items[0] if open_items else None
+        first = self._open_item()
         raise StuckError(
             f"not over after {state.time - self.phase_begin:.0f} s",
             time=state.time,
@@ -228,11 +247,11 @@ class Pilot:
             else "",
         )
 
-    def _passed(self, leg: Leg, passage: Passage) -> None:
+    def _passed(self, leg: Leg) -> None:
         self._note("waypoint", leg.name, f"{leg.mode}, {leg.speed}, {leg.level}")
         for step in leg.actions:
             if self._state is not None:
-                self.carry_out(step, self._state)
+                self._do(step, self._state, f"at waypoint {leg.name}")
 
     def _navigate(self, state: State) -> None:
         if self._approaching:
@@ -247,7 +266,7 @@ class Pilot:
             else:
                 self.route.update_approach(state)
 
-    def _note(self, kind: str, name: str, reason: str) -> None:
-        event = Event(self._state.time if self._state else 0.0, kind, name, self.phase, reason)
+    def _note(self, kind: str, name: str, reason: str, detail: str = "") -> None:
+        event = Event(self._state.time if self._state else 0.0, kind, name, self.phase, reason, detail)
         for listener in self.listeners:
             listener(event)

@@ -38,18 +38,6 @@ class Guidance(NamedTuple):
     course: float  # true course of the line here
 
 
-class Passage(NamedTuple):
-    """One waypoint passed. SI; `cross_track` is 0 for homing."""
-
-    name: str
-    time: float
-    distance: float
-    cross_track: float
-    altitude: float
-    cas: float
-    fuel: float
-
-
 class NavigationComputer:
     """Follows the legs of a mission and then the runway's centreline; see `update`."""
 
@@ -61,14 +49,12 @@ class NavigationComputer:
         self.index = 0
         self.leg: Leg
         self.level: float  # wanted, as pressure altitude, m
-        self.passages: list[Passage] = []
-        self.on_passage: Callable[[Leg, Passage], None] = lambda leg, passage: None
+        self.on_passage: Callable[[Leg], None] = lambda leg: None
         self._turn_bank = turn_bank
         self._altimeter_setting = pressure_altitude(qnh)
         self._take(legs[0])
         self.waypoints_remaining = len(legs)
         self._line = Line(0.0, 0.0, 0.0, 0.0)
-        self._closest = inf
         self._begun = False
         self._after = self._distances_after()
         self.guidance = Guidance(False, 0.0, 0.0, 0.0)
@@ -136,7 +122,6 @@ class NavigationComputer:
             )
             bearing_error = wrap(azimuth - state.heading)
         self.remaining = distance
-        self._closest = min(self._closest, distance)
         self.guidance = Guidance(True, bearing_error, 0.0, state.heading + bearing_error)
         return distance < HOMING_PASSAGE_RANGE and abs(bearing_error) > 0.5 * pi
 
@@ -155,7 +140,6 @@ class NavigationComputer:
         # Meridians converge: the geodesic of the line has another true course here than at its reference point.
         convergence = (longitude - line.longitude) * sin(0.5 * (latitude + line.latitude))
         self.guidance = Guidance(False, 0.0, across, (line.course + convergence) % (2 * pi))
-        self._closest = min(self._closest, hypot(self.remaining, across))
         return self.remaining <= (self._lead(state) if leg.turn == "fly-by" else 0.0)
 
     def _lead(self, state: State) -> float:
@@ -180,21 +164,15 @@ class NavigationComputer:
         return azimuth
 
     def _pass(self, leg: Leg, state: State) -> None:
-        cross_track = self.guidance.cross_track
-        passage = Passage(
-            leg.name, state.time, self._closest, cross_track, state.altitude, state.cas, state.fuel
-        )
-        self.passages.append(passage)
         self.index += 1
         if leg.turn == "fly-by":
             self._begin(leg.fix.latitude, leg.fix.longitude)
         else:
             self._begin(state.latitude, state.longitude)
-        self.on_passage(leg, passage)
+        self.on_passage(leg)
 
     def _begin(self, latitude: float, longitude: float) -> None:
         """Draw the line of the active leg; a leg without a course is flown from (latitude, longitude)."""
-        self._closest = inf
         self.waypoints_remaining = len(self.legs) - self.index
         if not self.waypoints_remaining:
             self.remaining = 0.0

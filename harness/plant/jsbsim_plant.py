@@ -2,9 +2,9 @@
 
 import ctypes
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import degrees, inf, isfinite, nan
-from operator import call, mul
+from operator import call
 from pathlib import Path
 from typing import NamedTuple
 
@@ -17,6 +17,7 @@ from harness.plant.properties import COMMANDS, PSF, STATE, Binding
 from harness.plant.tanks import Tank, filled
 from harness.state import (
     FAST,
+    FIELDS,
     LOW,
     MEDIUM,
     MEDIUM_PERIOD,
@@ -24,7 +25,6 @@ from harness.state import (
     Commands,
     State,
     close_to_ground,
-    new_state,
 )
 from harness.units import FT, LB
 
@@ -43,6 +43,9 @@ STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground t
 GROUND_TRIM = 2  # JSBSim's trim mode for an aircraft on its wheels
 TANKS = 7
 BELOW_GROUND = -2.0  # m: no strut is that short
+
+Reading = tuple[str, Callable[[], float], float]
+"""A field of State, how it is read, and what one unit of the reading is in SI."""
 
 
 class Placement(NamedTuple):
@@ -98,13 +101,15 @@ class JSBSimPlant:
         self._fdm = _load(root, aircraft, rate)
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air)
-        self._getters = [self._getter(binding) for binding in STATE]
-        _, self._vertical_speed, self._pitch = self._getters[:_FAST]
-        self._medium = self._getters[:_MEDIUM]
-        self._rest: tuple[float, ...] = ()
+        self._readings = [
+            (field, self._getter(binding), binding.factor)
+            for field, binding in zip(FIELDS, STATE, strict=True)
+        ]
+        self._medium_readings = self._readings[: len(FAST) + len(MEDIUM)]
+        (_, _, _), (_, self._vertical_speed, _), (_, self._pitch, _) = self._readings[: len(FAST)]
+        self._state = State(*[0.0] * len(FIELDS))
         self._close = False
         self._blind = MEDIUM_PERIOD  # pilot steps until more than the fast fields are read
-        self._factors = [binding.factor for binding in STATE]
         self._setters = [[self._setter(name) for name in COMMANDS[field]] for field in Commands._fields]
         self._set_terrain = self._setter("position/terrain-elevation-asl-ft")
         self._written = Commands(*[nan] * len(Commands._fields))
@@ -116,6 +121,7 @@ class JSBSimPlant:
         self._read_whole = 0
         self._sink = 0.0
         self._write(Commands())
+        self._renew(self._readings)
 
     @property
     def frames(self) -> int:
@@ -128,11 +134,8 @@ class JSBSimPlant:
         return self._fdm
 
     def state(self) -> State:
-        """The aircraft as it is now."""
-        values = list(map(mul, map(call, self._getters), self._factors))
-        values[_HEIGHT] -= self._standing_height
-        self._rest = tuple(values[_FAST:])
-        return new_state(values)
+        """The aircraft as it is now, renewed in place by `advance`."""
+        return self._state
 
     def advance(self, commands: Commands) -> State:
         """Fly one pilot step under `commands`.
@@ -149,23 +152,22 @@ class JSBSimPlant:
         if self._blind <= 0:
             return self._look_around()
         # By hand: this runs at every pilot step.
-        vertical_speed, attitude = self._vertical_speed() * FT, self._pitch()
-        if not -inf < vertical_speed + attitude < inf:
+        vertical_speed, pitch = self._vertical_speed() * FT, self._pitch()
+        if not -inf < vertical_speed + pitch < inf:
             raise self._not_finite()
-        return new_state((self._steps * self._step, vertical_speed, attitude, *self._rest))
+        state = self._state
+        state.time = self._steps * self._step
+        state.vertical_speed = vertical_speed
+        state.pitch = pitch
+        return state
 
     def _look_around(self) -> State:
         """Read more of State, and see whether it is still the state of an aircraft."""
-        if self._close or self._steps - self._read_whole >= SLOW_PERIOD:
-            state = self.state()
+        state = self._state
+        whole = self._close or self._steps - self._read_whole >= SLOW_PERIOD
+        if whole:
             self._read_whole = self._steps
-        else:
-            medium = list(map(mul, map(call, self._medium), self._factors))
-            medium[_HEIGHT] -= self._standing_height
-            state = new_state((*medium, *self._rest[_MEDIUM - _FAST :]))
-            self._rest = state[_FAST:]
-        if not -inf < sum(state) < inf:
-            raise self._not_finite()
+        self._renew(self._readings if whole else self._medium_readings)
         sink, self._sink = self._sink, -state.vertical_speed
         self._close = close_to_ground(state.height, state.cas)
         self._blind = 1 if self._close else MEDIUM_PERIOD
@@ -178,13 +180,24 @@ class JSBSimPlant:
             self._set_terrain(self._terrain(state.latitude, state.longitude) / FT)
         return state
 
+    def _renew(self, readings: Sequence[Reading]) -> None:
+        """Put what is read into State, unless some of it is not finite."""
+        numbers = [get() * factor for _, get, factor in readings]
+        if not -inf < sum(numbers) < inf:
+            raise self._not_finite()
+        state = self._state
+        for (field, _, _), number in zip(readings, numbers, strict=True):
+            setattr(state, field, number)
+        state.time = self._steps * self._step
+        state.height -= self._standing_height
+
     def _contacts(self) -> list[Callable[[], float]]:
         """Whether each part of the structure touches the ground: fuselage, wing tips, propellers."""
         nodes = [self._manager.get_node(f"contact/unit[{i}]/WOW") for i in range(MOST_CONTACTS)]
         return [node.get_double_value for node in nodes if node is not None]
 
     def _not_finite(self) -> NumericalError:
-        lost = [field for field, get in zip(State._fields, self._getters, strict=True) if not isfinite(get())]
+        lost = [field for field, get, _ in self._readings if not isfinite(get())]
         return NumericalError(
             "the state of the aircraft is no longer finite",
             time=self._steps * self._step,
@@ -260,12 +273,9 @@ class JSBSimPlant:
         return node.set_double_value
 
 
-_HEIGHT = State._fields.index("height")
 _STANDING = Commands._fields.index("pitch_hold")  # from here on commands change by procedures only
 _EVERY = range(len(Commands._fields))
 _MOVING = range(_STANDING)
-_FAST = len(FAST)
-_MEDIUM = _FAST + len(MEDIUM)
 
 
 def _load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:

@@ -3,7 +3,7 @@
 from math import pi
 from typing import NamedTuple
 
-from harness.state import Commands, State
+from harness.state import FIELDS, Commands
 from harness.units import FT, LB
 from harness.world.atmosphere import GRAVITY
 
@@ -55,7 +55,7 @@ _STATE = {
     "pressure": Binding("atmosphere/P-psf", PSF),
     "temperature": Binding("atmosphere/T-R", KELVIN),
 }
-STATE: tuple[Binding, ...] = tuple(_STATE[field] for field in State._fields)
+STATE: tuple[Binding, ...] = tuple(_STATE[field] for field in FIELDS)
 
 _COMMANDS = {
     "pitch_hold": "ap/pitch-mode",

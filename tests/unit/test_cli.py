@@ -13,7 +13,7 @@ from harness import cli, resources
 from harness.console import Console, clock
 from harness.errors import InputError
 from harness.log import Event
-from harness.state import Commands, State
+from harness.state import FIELDS, Commands, State
 from harness.units import KT
 
 
@@ -170,13 +170,14 @@ class Pilot:
     phase = "ENR.CRS"
     modes = MappingProxyType({"CTRL": "direct: steering", "SPD": "THR", "HP": "NAV route", "VP": "NAV level"})
     targets = MappingProxyType({"distance_to_go": 18520.0})
+    waiting = "level above: 0 ft, at least 300 ft"
 
 
 def test_on_a_terminal_one_line_lives(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     stream = Terminal()
     console = Console(stream)
-    state = State(**dict.fromkeys(State._fields, 0.0) | {"time": 3725.0, "altitude": 3048.0, "cas": 100 * KT})
+    state = State(**dict.fromkeys(FIELDS, 0.0) | {"time": 3725.0, "altitude": 3048.0, "cas": 100 * KT})
     console.see(state, Commands(), Pilot())
     line = stream.getvalue()
     assert line.startswith("\r1:02:05 ENR.CRS          10000 ft 100 kt  10.0 NM to go")

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from pyarrow import parquet
 from harness.errors import InputError, OutputError
 from harness.log import Event, FlightLog, Run, RunFolder, conclude, read_run, write_run
 from harness.log.run import UNITS
-from harness.state import Commands, State
+from harness.state import FIELDS, Commands, State
 
 STEP = 1 / 24
 SPEED = 80.0
@@ -26,11 +27,12 @@ class Pilot:
         self.phase = "TXY.out"
         self.modes = {"SPD": "THR", "HP": "NAV", "VP": "PATH"}
         self.targets = {"cas": SPEED, "altitude": math.nan}
+        self.waiting = ""
 
 
 def state_at(time: float) -> State:
     airborne = LIFT_OFF <= time < TOUCHDOWN and not BOUNCED <= time < BOUNCED + 0.5
-    values = dict.fromkeys(State._fields, 0.0) | {
+    values = dict.fromkeys(FIELDS, 0.0) | {
         "time": time,
         "latitude": time * SPEED / 6.4e6,
         "velocity_north": SPEED,
@@ -88,7 +90,7 @@ def test_the_history_is_dense_on_the_runway_and_sparse_aloft_and_ends_with_the_l
 
 
 def test_every_number_in_the_history_has_a_unit() -> None:
-    assert set(State._fields) <= set(UNITS)
+    assert set(FIELDS) <= set(UNITS)
 
 
 def test_words_and_targets_are_recorded(run: Run) -> None:
@@ -179,7 +181,7 @@ def test_a_flight_that_never_began_leaves_an_empty_history(tmp_path: Path) -> No
 
 def test_numbers_that_are_not_finite_become_null_in_the_summary() -> None:
     log = FlightLog()
-    log.see(state_at(0.0)._replace(mass=math.nan), Commands(brake=0.0), Pilot())
+    log.see(replace(state_at(0.0), mass=math.nan), Commands(brake=0.0), Pilot())
     json.dumps(run_of(log, failure="not finite").summary, allow_nan=False)
 
 

@@ -8,7 +8,7 @@ from harness.errors import OverrunError
 from harness.manual import read_manual
 from harness.navigation.database import load
 from harness.pilot.ground import Centreline, GroundSteering, TaxiPath
-from harness.state import State
+from harness.state import FIELDS, State
 from harness.world.local import LocalFrame, filleted
 
 ORIGIN = (radians(50.0), radians(7.0))
@@ -16,7 +16,7 @@ METRE = 1.0 / 6_371_000.0  # rad, near enough
 
 
 def at(north: float, east: float, heading: float, speed: float) -> State:
-    values = dict.fromkeys(State._fields, 0.0) | {
+    values = dict.fromkeys(FIELDS, 0.0) | {
         "latitude": ORIGIN[0] + north / 6_365_000.0,
         "longitude": ORIGIN[1] + east / (6_390_700.0 * cos(ORIGIN[0])),
         "heading": heading % (2 * 3.141592653589793),
@@ -75,10 +75,10 @@ def test_leaving_the_runway_is_an_overrun() -> None:
     runway = load().runway("EDDM", "26L")
     line = Centreline(runway)
     latitude, longitude = runway.point(runway.length + 20.0)
-    beyond = State(**(dict.fromkeys(State._fields, 0.0) | {"latitude": latitude, "longitude": longitude}))
+    beyond = State(**(dict.fromkeys(FIELDS, 0.0) | {"latitude": latitude, "longitude": longitude}))
     with pytest.raises(OverrunError, match="the end of runway EDDM 26L"):
         line.check(beyond, "LDG.roll-out")
     latitude, longitude = runway.point(1000.0, 60.0)
-    beside = State(**(dict.fromkeys(State._fields, 0.0) | {"latitude": latitude, "longitude": longitude}))
+    beside = State(**(dict.fromkeys(FIELDS, 0.0) | {"latitude": latitude, "longitude": longitude}))
     with pytest.raises(OverrunError, match="the side of runway"):
         line.check(beside, "T/O.run")

@@ -10,7 +10,7 @@ from harness.pilot.modes.horizontal import HorizontalMode
 from harness.pilot.modes.speed import SpeedMode
 from harness.pilot.modes.vertical import VerticalMode
 from harness.pilot.route import Guidance
-from harness.state import State
+from harness.state import FIELDS, State
 from harness.units import FT, KT
 from harness.world.atmosphere import GRAVITY
 
@@ -19,7 +19,7 @@ NO_SLOPE = NeedleReading(0.0, 0.0, received=False)
 
 
 def state(**values: float) -> State:
-    return State(**(dict.fromkeys(State._fields, 0.0) | values))
+    return State(**(dict.fromkeys(FIELDS, 0.0) | values))
 
 
 @pytest.fixture(scope="module")

@@ -1,15 +1,16 @@
 """VP: pitch attitude (ATT), flight path (PATH), or guidance to a level or down a glide slope (NAV)."""
 
 from collections.abc import Mapping
-from math import hypot
+from math import hypot, tan
 
+from harness.navigation.database import Ils
 from harness.navigation.receivers import NeedleReading
 from harness.numerics import ROUNDER, approach, clamp, quantised
 from harness.state import State
 from harness.world.atmosphere import GRAVITY
 
-SLOPE = 0.0524078  # tangent of 3 degrees, the glide path of every Ils of the navigation database
-AIM = 286.0  # m past the threshold, where that path meets the runway
+SLOPE = tan(Ils.GLIDE_ANGLE)
+AIM = Ils.CROSSING_HEIGHT / SLOPE  # m past the threshold, where the path meets a level runway
 SLOWEST = 30.0  # m/s: below it path angles mean nothing
 
 
