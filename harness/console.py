@@ -11,7 +11,7 @@ from harness.units import FT, KT, NM
 REFRESH = 0.2  # s, of the clock on the wall
 EVERY = 5  # pilot steps between two looks at that clock
 STANDING = frozenset({"CTRL", "INN"})  # super-modes that hardly change and would fill the line
-REPORTED = frozenset({"phase", "waypoint", "warning"})
+REPORTED = frozenset({"phase", "waypoint"})
 
 
 class Console:

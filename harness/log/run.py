@@ -39,7 +39,7 @@ UNITS = {
 class Event(NamedTuple):
     """Something that happened: at `time` (s), in `phase`, and why.
 
-    `kind` is phase, checklist, procedure, mode, waypoint, warning or configuration; `name` says which one.
+    `kind` is phase, checklist, procedure, mode or waypoint; `name` says which one, `detail` what a step did.
     """
 
     time: float

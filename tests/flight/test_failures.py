@@ -364,3 +364,18 @@ def test_an_aircraft_that_jsbsim_cannot_load_is_refused(
     assert said in result.stderr
     assert "Traceback" not in result.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_a_rejected_take_off_is_no_completed_mission(tmp_path: Path, watcher: Watcher) -> None:
+    item = 'name="a propeller has slowed down" quantity="propeller-speed" at-most="2000 rpm"'
+    error = failed(Session(mission(tmp_path, wait_for("T/O.run", "RTO", item))), watcher)
+    assert error.phase == "RTO"
+    assert "rejected" in str(error)
+    assert "a propeller has slowed down" in error.knob
+
+
+@pytest.mark.parametrize("rate", [0, 100, -24])
+def test_a_frame_rate_the_pilot_cannot_keep_is_refused(rate: int) -> None:
+    session = Session(BASE)
+    with pytest.raises(InputError, match="frames a second are not possible"):
+        flight.fly_mission(session.mission, session.manual, rate=rate)
