@@ -1,6 +1,6 @@
 """What the pilot costs: a mission's wall time over that of bare JSBSim stepping the same frames.
 
-`python benchmarks/flight.py [MISSION]` prints one JSON line. The mission is flown as `harness fly` flies it: the pilot at
+`python benchmarks/flight.py [MISSION]` prints one JSON line. The mission is flown as `harness fly` flies it: pilot at
 24 Hz, with its outer loops and checklists at 2 Hz aloft and at 24 Hz at the runway, and the log. After every second of
 flight a second JSBSim of the same aircraft is given the commands of that second's end and steps the same number of
 frames in a bare loop. So both sides meet the same machine load, in the same phase of flight, and no Python runs between
