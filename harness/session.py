@@ -11,8 +11,7 @@ from harness import __version__, resources
 from harness.errors import FlightError
 from harness.log import Event, FlightLog, Reporter, Run, RunFolder, conclude, write_run
 from harness.manual import read_manual
-from harness.mission.check import check
-from harness.mission.reader import read_mission
+from harness.mission.check import check_file
 from harness.state import Commands, State
 
 if TYPE_CHECKING:  # at run time only when flying: it brings JSBSim along
@@ -44,9 +43,8 @@ class Session:
     """
 
     def __init__(self, mission: str | PathLike[str], overrides: Sequence[str] = ()) -> None:
-        self.mission = read_mission(resources.find_mission(mission), overrides)
+        self.mission = check_file(resources.find_mission(mission), overrides)
         self.manual = read_manual(self.mission.aircraft)
-        check(self.mission, self.manual)
 
     def fly(
         self,

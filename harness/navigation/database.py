@@ -189,10 +189,6 @@ class Database:
         """Return the ICAO codes of the airports."""
         return tuple(sorted(self._runways))
 
-    def station_idents(self) -> tuple[str, ...]:
-        """Return the idents of the stations."""
-        return tuple(sorted(self._stations))
-
 
 def _suggest(name: str, known: Iterable[str]) -> str:
     close = get_close_matches(name, list(known), cutoff=0.5)

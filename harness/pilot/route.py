@@ -1,13 +1,13 @@
 """The navigation computer: from radio aids and position to the course, speed and level of the moment (Fig. 11)."""
 
 from collections.abc import Callable, Sequence
-from math import atan2, cos, hypot, inf, pi, sin, sqrt, tan
+from math import hypot, inf, pi, sin, sqrt, tan
 from typing import NamedTuple
 
 from harness.mission.model import Leg
 from harness.navigation import receivers
 from harness.navigation.database import Ils, Runway
-from harness.numerics import clamp, wrap
+from harness.numerics import wrap
 from harness.state import State
 from harness.units import DEG
 from harness.world import airspeed, earth
@@ -135,7 +135,7 @@ class NavigationComputer:
             distance = ground_range(slant, state.altitude - station.elevation, state.altitude)
         else:
             azimuth, _, distance = earth.inverse(line.latitude, line.longitude, latitude, longitude)
-        along, across = earth_offsets(distance, azimuth - line.course)
+        along, across = earth.beside(distance, azimuth - line.course)
         self.remaining = line.end - along
         # Meridians converge: the geodesic of the line has another true course here than at its reference point.
         convergence = (longitude - line.longitude) * sin(0.5 * (latitude + line.latitude))
@@ -206,12 +206,3 @@ class NavigationComputer:
 def ground_range(slant: float, height: float, altitude: float) -> float:
     """Distance over the ground in metres from a slant range, at `height` metres above the station."""
     return sqrt(max(slant * slant - height * height, 0.0)) / (1.0 + altitude / earth.MEAN_RADIUS)
-
-
-def earth_offsets(distance: float, angle: float) -> tuple[float, float]:
-    """Solve the right triangle on the sphere: (along, across) of a point at `distance` and `angle` off a line."""
-    arc = distance / earth.MEAN_RADIUS
-    return (
-        earth.MEAN_RADIUS * atan2(sin(arc) * cos(angle), cos(arc)),
-        earth.MEAN_RADIUS * clamp(sin(arc) * sin(angle), -1.0, 1.0),
-    )

@@ -124,11 +124,6 @@ class JSBSimPlant:
         self._renew(self._readings)
 
     @property
-    def frames(self) -> int:
-        """Frames flown so far."""
-        return self._steps * len(self._frames)
-
-    @property
     def fdm(self) -> jsbsim.FGFDMExec:
         """The simulator itself, for tools that look at more than State."""
         return self._fdm

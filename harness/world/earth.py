@@ -54,11 +54,15 @@ def offset(
     on the line itself, and within 0.3 % of `across` beside it.
     """
     azimuth_2, _, distance = inverse(latitude, longitude, latitude_2, longitude_2)
+    return beside(distance, azimuth_2 - azimuth)
+
+
+def beside(distance: float, angle: float) -> tuple[float, float]:
+    """Return (along, across) of a point at `distance` and `angle` off a line: the right triangle on the mean sphere."""
     arc = distance / MEAN_RADIUS
-    turn = azimuth_2 - azimuth
     return (
-        MEAN_RADIUS * atan2(sin(arc) * cos(turn), cos(arc)),
-        MEAN_RADIUS * asin(sin(arc) * sin(turn)),
+        MEAN_RADIUS * atan2(sin(arc) * cos(angle), cos(arc)),
+        MEAN_RADIUS * asin(sin(arc) * sin(angle)),
     )
 
 
