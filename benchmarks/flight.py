@@ -1,10 +1,10 @@
 """What the pilot costs: a mission's wall time over that of bare JSBSim stepping the same frames.
 
 `python benchmarks/flight.py [MISSION]` prints one JSON line. The mission is flown as `harness fly` flies it: pilot at
-24 Hz, with its outer loops and checklists at 2 Hz aloft and at 24 Hz at the runway, and the log. After every second of
-flight a second JSBSim of the same aircraft is given the commands of that second's end and steps the same number of
-frames in a bare loop. So both sides meet the same machine load, in the same phase of flight, and no Python runs between
-the frames of the bare side.
+24 Hz, with its outer loops and checklists at 2 Hz aloft and at 24 Hz at the runway, and the log. Every ten seconds of
+flight a second JSBSim of the same aircraft is given the commands of the end of each of these seconds, and steps the
+frames of that second in a bare loop. So both sides meet the same machine load, in the same phase of flight, and no
+Python runs between the frames of the bare side.
 """
 
 import json
@@ -29,7 +29,7 @@ from harness.session import Session  # noqa: E402
 from harness.state import MEDIUM_PERIOD, Commands, State  # noqa: E402
 
 FRAME_RATE = 120
-SEGMENT = PILOT_RATE  # pilot steps
+SECONDS = 10  # of flight before its frames are repeated bare: long enough for each side to warm its caches
 
 
 class Interleaved:
@@ -38,35 +38,37 @@ class Interleaved:
     def __init__(self, session: Session) -> None:
         _, self._plant = prepare(session.mission, session.manual, rate=FRAME_RATE)
         self._plant._frames = range(0)  # noqa: SLF001  `advance` then writes the commands and leaves the frames to us
-        self._left = SEGMENT
-        self._last = Commands()
+        self._left = PILOT_RATE
+        self._commands: list[Commands] = []
         self.flight_time = 0.0
         self.bare_time = 0.0
         self.frames = 0
         self._mark = perf_counter()
 
     def see(self, state: State, commands: Commands, pilot: Reporter) -> None:  # noqa: ARG002  an observer
-        """Count the step; repeat the segment when it is full."""
+        """Keep the commands of every second; repeat the frames when there are enough."""
         self._left -= 1
         if not self._left:
-            self._last = commands
-            self.close()
+            self._left = PILOT_RATE
+            self._commands.append(commands)
+            if len(self._commands) == SECONDS:
+                self.close()
 
     def note(self, event: Event) -> None:
         """Events cost nothing here."""
 
     def close(self) -> None:
-        """Account for the segment flown and step as many frames bare."""
+        """Account for the seconds flown and step as many frames bare."""
         self.flight_time += perf_counter() - self._mark
-        frames = (SEGMENT - self._left) * (FRAME_RATE // PILOT_RATE)
-        self._plant.advance(self._last)
         step = self._plant.fdm.run
-        begin = perf_counter()
-        for _ in range(frames):
-            step()
-        self.bare_time += perf_counter() - begin
-        self.frames += frames
-        self._left = SEGMENT
+        for commands in self._commands:
+            self._plant.advance(commands)
+            begin = perf_counter()
+            for _ in range(FRAME_RATE):
+                step()
+            self.bare_time += perf_counter() - begin
+        self.frames += len(self._commands) * FRAME_RATE
+        self._commands.clear()
         self._mark = perf_counter()
 
 
@@ -78,7 +80,6 @@ def main(mission: str) -> None:
         fly_mission(session.mission, session.manual, rate=FRAME_RATE, observers=[FlightLog(), interleaved])
     except HarnessError as error:
         sys.exit(f"benchmarks/flight.py: {error}")
-    interleaved.close()
     result = {
         "mission": mission,
         "pilot_hz": PILOT_RATE,

@@ -19,7 +19,7 @@ from harness.state import MEDIUM_PERIOD, Commands, State, close_to_ground, new_c
 
 FAST = frozenset({"time-in-phase", "vertical-speed", "pitch"})
 """Quantities renewed at every pilot step; what waits for another one is read when the outer loops turn."""
-ROUTE_TURNS = 2  # turns of the outer loops between two looks at the route, far from the next waypoint
+ROUTE_TURNS = 4  # turns of the outer loops between two looks at the route, far from the next waypoint
 NEAR_WAYPOINT = 15000.0  # m: more than the lead of any turn
 LEVEL_REACHED = 30.0  # m: a level this near is captured however slowly it is approached
 DEFAULT_TIME_LIMIT = 7200.0  # s in one phase, where the manual says nothing
