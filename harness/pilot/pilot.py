@@ -163,7 +163,9 @@ class Pilot:
 
     def _carry_out(self, ready: _ReadyStep, state: State) -> None:
         conditions = [f"{item.achieved(state)}, {item.wanted(state)}" for item in ready.when]
-        self._do(ready.step, state, "; ".join(conditions) or f"on entering {self.phase}")
+        at_once = state.time == self.phase_begin
+        otherwise = f"on entering {self.phase}" if at_once else "after the step before it"
+        self._do(ready.step, state, "; ".join(conditions) or otherwise)
 
     def _do(self, step: Step, state: State, reason: str) -> None:
         """Do one step of a procedure, or an action at a waypoint."""

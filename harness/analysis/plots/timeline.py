@@ -68,7 +68,7 @@ def profile(run: Run) -> Figure:
     for axes in panels:
         plain_grid(axes)
         _bands(axes, stretches, run.passages)
-        _legend(axes, inside=axes is altitude)
+        _legend(axes, below=axes is altitude)
     _phase_names(altitude, stretches)
     _waypoint_names(altitude, run.passages)
     title = f"{run.summary.get('mission', '')}: altitude, speed, attitude, thrust and fuel"
@@ -97,19 +97,17 @@ def _bands(axes: Axes, stretches: list[Span], passages: Sequence[Passage]) -> No
         axes.axvline(passage.time / MIN, color="#777777", linewidth=0.6, dashes=(1, 2), zorder=1)
 
 
-def _legend(axes: Axes, *, inside: bool) -> None:
-    """Put one row of labels for both scales on top of the panel; inside where the phases are named on top."""
+def _legend(axes: Axes, *, below: bool) -> None:
+    """Put one row of labels for both scales on top of the panel; below it where the phases are named on top."""
     twins = [twin for twin in axes.figure.axes if twin is not axes and twin.bbox.bounds == axes.bbox.bounds]
     handles = [handle for each in (axes, *twins) for handle in each.get_legend_handles_labels()[0]]
     top = twins[-1] if twins else axes
     top.legend(
         handles=handles,
-        loc="lower center" if inside else "lower right",
-        bbox_to_anchor=None if inside else (1.0, 0.98),
+        loc="upper left" if below else "lower right",
+        bbox_to_anchor=(0.0, 0.0) if below else (1.0, 0.98),
         ncols=len(handles),
-        frameon=inside,
-        framealpha=0.85,
-        edgecolor="none",
+        frameon=False,
         borderpad=0.2,
     )
 
