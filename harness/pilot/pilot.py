@@ -116,10 +116,9 @@ class Pilot:
     def _act_fully(self, state: State) -> Commands:
         outer = self._countdown <= 0
         if outer:
-            if self._state is None:
-                self._state = state
+            begun, self._state = self._state is not None, state
+            if not begun:
                 self._enter(START, state, "start of the mission")
-            self._state = state
             self._navigate(state)
             self.level_error = self.route.level - state.pressure_altitude
         for checklist in self._checklists:

@@ -73,12 +73,9 @@ class NavigationComputer:
             return max(self.distance_to_threshold, 0.0)
         return max(self.remaining, 0.0) + self._after[self.index]
 
-    def speed_target(self, state: State) -> float:
-        """The active leg's speed as CAS, m/s."""
-        return self._cas_of(self.leg, state)
-
     @staticmethod
     def _cas_of(leg: Leg, state: State) -> float:
+        """A leg's speed as CAS here, m/s."""
         kind, value = leg.speed
         if kind == "CAS":
             return value
@@ -97,7 +94,7 @@ class NavigationComputer:
                 self._pass(leg, state)
                 self.update(state)
                 return
-        self.target_cas = self.speed_target(state)
+        self.target_cas = self._cas_of(self.leg, state)
 
     def update_approach(self, state: State) -> None:
         """Read the ILS of the destination."""

@@ -92,11 +92,9 @@ class JSBSimPlant:
 
         Raises InputError when the aircraft cannot be loaded or lacks a property that the pilot needs.
         """
-        self.rate = rate
         self._frames = range(frames_per_step)
         self._step = frames_per_step / rate
         self._terrain = terrain
-        self._placement = placement
         self._aircraft = aircraft
         self._fdm = _load(root, aircraft, rate)
         self._manager = self._fdm.get_property_manager()
