@@ -50,6 +50,11 @@ class State:
     propeller_speed: float  # of the slowest propeller, rad/s
     pressure: float  # static, Pa
     temperature: float  # static, K
+    greatest_load_factor: float  # since the first lift-off, airborne, as are the following: seen at 60 Hz
+    least_load_factor: float
+    greatest_bank: float  # rad, either way
+    greatest_alpha: float  # rad
+    stall_warned: float  # 1 once the stall warning has sounded
 
 
 FIELDS: tuple[str, ...] = tuple(field.name for field in fields(State))

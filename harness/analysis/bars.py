@@ -28,6 +28,7 @@ CAS_SWING = 0.5  # kt
 LOAD_FACTOR_SWING = 0.05
 STAND_REACHED = 5.0  # m
 STOPPED = 0.1  # m/s
+LATCHED = "latched by the aircraft 60 times a second"
 CROSSWIND = 15 * KT  # the strongest wind for which there is a bar on the runway
 
 
@@ -149,15 +150,17 @@ def _landing(found: Measures, mission: Mission) -> Iterator[Bar]:
 
 def _never(run: Run, manual: FlightManual, never: Envelope) -> Iterator[Bar]:
     limits, seen = manual.limits, _rates(run)
-    yield Bar("stall warning in the air", float(never.stall_warning), "", None, 0.0, seen)
-    yield Bar("CAS over the 1-g stall speed", never.stall_ratio, "")
-    yield Bar("below VMO", never.vmo_margin / KT, "kt", 0.0)
-    yield Bar("below MMO", never.mmo_margin, "Mach", 0.0)
+    yield Bar("stall warning in the air", float(never.stall_warning), "", None, 0.0, LATCHED)
+    yield Bar("CAS over the 1-g stall speed", never.stall_ratio, "", remark=seen)
+    yield Bar("below VMO", never.vmo_margin / KT, "kt", 0.0, None, seen)
+    yield Bar("below MMO", never.mmo_margin, "Mach", 0.0, None, seen)
     yield Bar("below the flap speed", never.flap_speed_margin / KT, "kt", 0.0)
     yield Bar("below the gear speed", never.gear_speed_margin / KT, "kt", 0.0)
-    yield Bar("bank", never.bank / DEG, "deg", None, limits["maximum-bank"] / DEG)
-    yield Bar("least load factor", never.load_factor_low, "", limits["minimum-load-factor"], None, seen)
-    yield Bar("greatest load factor", never.load_factor_high, "", None, limits["maximum-load-factor"], seen)
+    yield Bar("bank", never.bank / DEG, "deg", None, limits["maximum-bank"] / DEG, LATCHED)
+    yield Bar("least load factor", never.load_factor_low, "", limits["minimum-load-factor"], None, LATCHED)
+    yield Bar(
+        "greatest load factor", never.load_factor_high, "", None, limits["maximum-load-factor"], LATCHED
+    )
 
 
 def _rates(run: Run) -> str:

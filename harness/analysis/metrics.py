@@ -55,7 +55,10 @@ class Parked(NamedTuple):
 
 
 class Envelope(NamedTuple):
-    """The extremes of the flight in the air. A negative margin is an excursion."""
+    """The extremes of the flight in the air. A negative margin is an excursion.
+
+    Bank, load factor and stall warning were latched by the aircraft; the others are of the records.
+    """
 
     bank: float  # rad
     load_factor_low: float
@@ -161,15 +164,15 @@ def envelope(run: Run, manual: FlightManual) -> Envelope:
     stall = np.interp(flap, positions[order], [manual.stall_speed(1.0, manual.flaps[i].name) for i in order])
     limits = manual.limits
     return Envelope(
-        bank=largest(history["roll"][air]),
-        load_factor_low=smallest(history["load_factor"][air]),
-        load_factor_high=-smallest(-history["load_factor"][air]),
+        bank=largest(history["greatest_bank"]),
+        load_factor_low=smallest(history["least_load_factor"]),
+        load_factor_high=largest(history["greatest_load_factor"]),
         vmo_margin=smallest(limits["VMO"] - cas),
         mmo_margin=smallest(limits["MMO"] - mach),
         flap_speed_margin=smallest(flap_limit - cas),
         gear_speed_margin=smallest((limits["VLO"] - cas)[gear > 0.0]),
         stall_ratio=smallest(cas / (stall * np.sqrt(history["mass"][air]))),
-        stall_warning=bool(np.any(history["stall_warning"][air] > 0)),
+        stall_warning=bool(np.any(history["stall_warned"] > 0)),
     )
 
 

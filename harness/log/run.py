@@ -11,7 +11,7 @@ History = dict[str, NDArray[Any]]
 
 _STATE_UNITS = {
     "s": "time",
-    "rad": "latitude longitude roll pitch heading alpha beta",
+    "rad": "latitude longitude roll pitch heading alpha beta greatest_bank greatest_alpha",
     "rad/s": "roll_rate pitch_rate yaw_rate propeller_speed",
     "m": "altitude pressure_altitude height",
     "m/s": "cas tas velocity_north velocity_east vertical_speed",
@@ -20,7 +20,8 @@ _STATE_UNITS = {
     "kg/s": "fuel_flow",
     "Pa": "pressure",
     "K": "temperature",
-    "1": "mach load_factor main_on_ground nose_on_ground flap gear stall_warning",
+    "1": "mach load_factor main_on_ground nose_on_ground flap gear stall_warning"
+    " greatest_load_factor least_load_factor stall_warned",
 }
 _OTHER_UNITS = {
     "m": "distance target_level target_level_error target_cross_track target_distance_to_go",

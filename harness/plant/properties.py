@@ -54,6 +54,11 @@ _STATE = {
     "propeller_speed": Binding("propulsion/slowest-propeller-rpm", 2.0 * pi / 60.0),
     "pressure": Binding("atmosphere/P-psf", PSF),
     "temperature": Binding("atmosphere/T-R", KELVIN),
+    "greatest_load_factor": Binding("extreme/nz-max"),
+    "least_load_factor": Binding("extreme/nz-min"),
+    "greatest_bank": Binding("extreme/bank-max-rad"),
+    "greatest_alpha": Binding("extreme/alpha-max-rad"),
+    "stall_warned": Binding("extreme/stall-warning"),
 }
 STATE: tuple[Binding, ...] = tuple(_STATE[field] for field in FIELDS)
 

@@ -157,7 +157,7 @@ def test_aircraft_files_open_no_sockets_and_write_no_files(repository: Path):
 
 
 def test_every_airframe_file_opens_by_saying_what_it_is(repository: Path):
-    for name in ("gear", "high-lift", "downwash", "attitude-hold"):
+    for name in ("gear", "high-lift", "downwash", "attitude-hold", "extremes"):
         text = (repository / f"systems/{name}.xml").read_text()
         assert re.match(r"<\?xml[^>]*>\s*<!--", text), name
         for word in ("inputs", "output", "gains", "ource" if name != "downwash" else "time constant"):

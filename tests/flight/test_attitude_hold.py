@@ -1,84 +1,10 @@
 """The attitude loops hold what they are told, from approach to cruise, light and heavy."""
 
-import math
 from pathlib import Path
-from typing import NamedTuple
 
 import jsbsim
 import pytest
-
-FT, KT, KG, DEG = 0.3048, 0.514444, 1 / 0.45359237, math.pi / 180
-INTEGRATORS = {
-    "rate/rotational": 3,
-    "rate/translational": 3,
-    "position/rotational": 7,
-    "position/translational": 4,
-}
-
-
-class Condition(NamedTuple):
-    name: str
-    altitude: float  # m
-    speed: dict[str, float]  # initial condition of JSBSim
-    mass: float  # kg
-    flap: float
-    pitch: float  # deg, near trim
-    lever: float
-
-
-CONDITIONS = [
-    Condition("approach", 500, {"vc-kts": 120}, 95e3, 1.0, 2.0, 0.32),
-    Condition("light, slow", 500, {"vc-kts": 100}, 81e3, 1.0, 4.0, 0.30),
-    Condition("take-off flap", 300, {"vc-kts": 140}, 141e3, 0.5, 7.9, 0.55),
-    Condition("circuit", 1000, {"vc-kts": 180}, 100e3, 0.0, 4.0, 0.33),
-    Condition("fast and low", 300, {"vc-kts": 305}, 110e3, 0.0, -2.0, 0.55),
-    Condition("FL230", 7010, {"mach": 0.40}, 110e3, 0.0, 6.2, 0.44),
-    Condition("FL370", 11278, {"mach": 0.60}, 85e3, 0.0, 2.2, 0.72),
-]
-
-
-class Flight:
-    """The aircraft in the air, engines running, held at an attitude."""
-
-    def __init__(self, root: Path, condition: Condition, rate: int = 120):
-        fdm = self.fdm = jsbsim.FGFDMExec(str(root))
-        fdm.set_debug_level(0)
-        fdm.set_dt(1 / rate)
-        assert fdm.load_model("gta")
-        for tank in range(7):
-            fdm[f"propulsion/tank[{tank}]/contents-lbs"] = 300 * KG
-        fdm["inertia/pointmass-weight-lbs[0]"] = (condition.mass - 78600 - 2100) * KG
-        fdm["ic/h-sl-ft"] = condition.altitude / FT
-        fdm["ic/theta-deg"] = condition.pitch
-        for name, value in condition.speed.items():
-            fdm[f"ic/{name}"] = value
-        fdm.run_ic()
-        for name in ("fcs/flap-cmd-norm", "fcs/flap-pos-norm"):
-            fdm[name] = condition.flap
-        for name in ("gear/gear-cmd-norm", "gear/gear-pos-norm"):
-            fdm[name] = float(condition.flap == 1)
-        for engine in range(4):
-            fdm[f"fcs/throttle-cmd-norm[{engine}]"] = condition.lever
-        self.integrate(False)
-        self.run(30)  # the engines run up while the aircraft stands still in the air
-        self.integrate(True)
-        fdm["ap/pitch-target-rad"] = condition.pitch * DEG
-        for axis in ("pitch", "roll", "yaw"):
-            fdm[f"ap/{axis}-mode"] = 1
-        self.run(15)
-
-    def integrate(self, on: bool) -> None:
-        for name, kind in INTEGRATORS.items():
-            self.fdm[f"simulation/integrator/{name}"] = kind if on else 0
-
-    def run(self, seconds: float, *names: str) -> list[tuple[float, ...]]:
-        """Fly on and give time and the named properties each frame."""
-        history = []
-        start = self.fdm.get_sim_time()
-        while self.fdm.get_sim_time() < start + seconds:
-            assert self.fdm.run()
-            history.append((self.fdm.get_sim_time() - start, *(self.fdm[name] for name in names)))
-        return history
+from airborne import CONDITIONS, DEG, FT, Condition, Flight, named
 
 
 @pytest.fixture(params=CONDITIONS, ids=lambda condition: condition.name)
@@ -108,12 +34,8 @@ def test_thirty_degrees_of_bank_take_less_than_four_seconds(flight: Flight):
     assert history[-1][1] == pytest.approx(30 * DEG, abs=1 * DEG)
 
 
-def circuit() -> Condition:
-    return next(condition for condition in CONDITIONS if condition.name == "circuit")
-
-
 def test_switching_a_mode_off_and_on_does_not_kick(repository: Path):
-    flight = Flight(repository, circuit())
+    flight = Flight(repository, named("circuit"))
     elevator = flight.fdm["fcs/elevator-pos-rad"]
     flight.fdm["fcs/elevator-cmd-norm"] = elevator / (0.436 if elevator < 0 else 0.30)
     before = flight.fdm["accelerations/Nz"]
@@ -126,7 +48,7 @@ def test_switching_a_mode_off_and_on_does_not_kick(repository: Path):
 
 
 def test_pulling_for_ever_stops_short_of_the_stall(repository: Path):
-    flight = Flight(repository, circuit())
+    flight = Flight(repository, named("circuit"))
     for engine in range(4):
         flight.fdm[f"fcs/throttle-cmd-norm[{engine}]"] = 0.1
     flight.fdm["ap/pitch-target-rad"] = 20 * DEG
@@ -164,7 +86,7 @@ def test_all_modes_on_a_parked_aircraft_are_quiet(repository: Path):
 def test_the_frame_rate_makes_no_difference(repository: Path):
     ends = []
     for rate in (120, 480):
-        flight = Flight(repository, circuit(), rate)
+        flight = Flight(repository, named("circuit"), rate)
         flight.fdm["ap/pitch-target-rad"] = 6 * DEG
         flight.fdm["ap/bank-target-rad"] = 25 * DEG
         ends.append(flight.run(1.5, "attitude/theta-rad", "attitude/phi-rad")[-1])

@@ -136,10 +136,11 @@ def test_the_envelope_is_that_of_the_flight_in_the_air():
         "mach": np.array([0.9, 0.3, 0.5, 0.25, 0.1]),
         "flap": np.array([0.5, 0.25, 0.0, 1.0, 1.0]),
         "gear": np.array([1.0, 0.5, 0.0, 1.0, 1.0]),
-        "roll": np.array([1.0, -0.4, 0.3, 0.0, 1.0]),
-        "load_factor": np.array([3.0, 0.9, 1.2, 1.1, -2.0]),
+        "greatest_bank": np.array([0.0, 0.4, 0.4, 0.4, 0.4]),
+        "least_load_factor": np.array([1.0, 0.9, 0.9, 0.9, 0.9]),
+        "greatest_load_factor": np.array([1.0, 1.0, 1.2, 1.2, 1.2]),
         "mass": np.full(5, 100e3),
-        "stall_warning": np.array([1.0, 0, 0, 0, 0]),
+        "stall_warned": np.zeros(5),
     }
     found = metrics.envelope(a_run(history), Manual())
     assert found.bank == 0.4
