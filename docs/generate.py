@@ -33,7 +33,15 @@ def pages() -> list[Path]:
 
 def renewed(page: Path) -> str:
     """The text of a page with its generated parts made anew."""
-    parts = {"graph": graph, "phases": phases, "quantities": quantities, "settings": settings, "modes": modes}
+    parts = {
+        "graph": graph,
+        "phases": phases,
+        "quantities": quantities,
+        "settings": settings,
+        "modes": modes,
+        "configurations": configurations,
+        "failures": failures,
+    }
     text = page.read_text("utf-8")
     return MADE.sub(lambda found: f"{found[1]}\n{parts[found[2]]()}\n\n{found[3]}", text)
 
@@ -127,6 +135,25 @@ def modes() -> str:
         for sub_mode, arguments in sub_modes.items()
     ]
     return table(("mode", "to", "and"), rows)
+
+
+def configurations() -> str:
+    """What can be chosen of the aircraft."""
+    rows = [
+        (f"`{name}`", f"`{choice}`", f"`{setting.property}` = {setting.value:g}")
+        for name, choices in read_manual(AIRCRAFT).configurations.items()
+        for choice, setting in choices.items()
+    ]
+    return table(("configuration", "choice", "sets"), rows)
+
+
+def failures() -> str:
+    """What can fail."""
+    rows = [
+        (f"`{name}`", f"`{setting.property}` = {setting.value:g}")
+        for name, setting in read_manual(AIRCRAFT).failures.items()
+    ]
+    return table(("failure", "sets"), rows)
 
 
 def _argument(name: str, argument: Argument) -> str:

@@ -5,6 +5,7 @@ from math import cos, sin
 from typing import Protocol
 
 from harness.errors import FlightError, InputError, TimeLimitError
+from harness.instructor import Instructor, configure
 from harness.log import Event, Reporter
 from harness.manual import FlightManual
 from harness.mission.model import Mission
@@ -45,10 +46,13 @@ def fly_mission(
     """
     pilot, plant = prepare(mission, manual, rate=rate)
     pilot.listeners.extend(observer.note for observer in observers)
+    instructor = Instructor(pilot, plant, pilot.tell)
     watch = [observer.see for observer in observers]
     state = plant.state()
     try:
         while not pilot.done:
+            if instructor.waiting:
+                instructor.act(state)
             commands = pilot.act(state)
             for see in watch:
                 see(state, commands, pilot)
@@ -87,6 +91,7 @@ def prepare(mission: Mission, manual: FlightManual, *, rate: int) -> tuple[Pilot
         ),
         terrain=_Terrain(departure, arrival),
     )
+    configure(plant, [manual.configurations[name][choice] for name, choice in mission.configuration.items()])
     return Pilot(mission, manual, departure, Ils(arrival), 1.0 / PILOT_RATE), plant
 
 

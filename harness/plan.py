@@ -52,6 +52,16 @@ class Named(Protocol):
         """Whether it drops the entry of that name."""
 
 
+class Failure(NamedTuple):
+    """Something that breaks once all its conditions hold, in `phase` if one is named; `name` is the manual's."""
+
+    name: str
+    phase: str
+    when: tuple[Condition, ...]
+    file: str
+    line: int
+
+
 Entry = TypeVar("Entry", bound=Named)
 
 

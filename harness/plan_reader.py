@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeVar
 
 from harness import vocabulary
 from harness.errors import InputError, did_you_mean
-from harness.plan import RELATIONS, Checklist, Condition, PhasePlan, Step
+from harness.plan import RELATIONS, Checklist, Condition, Failure, PhasePlan, Step
 from harness.units import DEG, UnitError, parse, parse_speed, show
 from harness.xml_source import Element, Source, children
 
@@ -98,6 +98,14 @@ def read_step(source: Source, element: Element) -> Step:
     conditions = tuple(_condition(source, when, name) for when in children(element, "when"))
     file, line = source.place(element)
     return Step(name, attributes, conditions, file, line or 0, remove)
+
+
+def read_failure(source: Source, element: Element) -> Failure:
+    """The failure in a <failure> element of a mission, faults noted in `source`."""
+    name = element.get("name", "")
+    conditions = tuple(_condition(source, when, name) for when in children(element, "when"))
+    file, line = source.place(element)
+    return Failure(name, element.get("phase", ""), conditions, file, line or 0)
 
 
 def _checklist(source: Source, element: Element) -> Checklist:

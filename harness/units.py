@@ -75,6 +75,13 @@ _MACH = re.compile(r"M[ \t]?([0-9]+\.?[0-9]*|\.[0-9]+)", re.ASCII)
 _FLIGHT_LEVEL = re.compile(r"FL[ \t]?([0-9]{1,3})", re.ASCII)
 
 
+class Quantity(NamedTuple):
+    """A value and its unit, both SI."""
+
+    value: float
+    unit: str
+
+
 class Speed(NamedTuple):
     """An airspeed with its kind: value in m/s, or the Mach number itself."""
 
@@ -123,6 +130,19 @@ def parse_any(text: str) -> float:
     if not math.isfinite(number * factor):
         raise UnitError(f'"{text}" is not a finite number')
     return number * factor
+
+
+def parse_quantity(text: str) -> Quantity:
+    """As `parse_any`, with the SI unit: "3 deg/s" is in rad/s, a number without unit in "". Raises UnitError."""
+    value = parse_any(text)
+    _, unit = _split(text, "")
+    above, _, below = (unit, "", "") if unit in FACTORS else unit.partition("/")
+    return Quantity(value, f"{_si_unit(above)}/{_si_unit(below)}" if below else _si_unit(above))
+
+
+def _si_unit(unit: str) -> str:
+    kind = next(kind for kind in KINDS.values() if unit in kind.units)
+    return next(name for name, factor in kind.units.items() if factor == 1.0)
 
 
 def parse_speed(text: str) -> Speed:

@@ -57,6 +57,7 @@ EDGES: tuple[tuple[str, str], ...] = (
 """The edges of the phase graph (Fig. 4, with the sub-phases of Fig. 6 and the RTO and M/A branches)."""
 
 QUANTITIES: dict[str, str] = {
+    "time": "time",
     "time-in-phase": "time",
     "cas": "speed",
     "ground-speed": "speed",

@@ -40,7 +40,7 @@ UNITS = {
 class Event(NamedTuple):
     """Something that happened: at `time` (s), in `phase`, and why.
 
-    `kind` is phase, checklist, procedure, mode or waypoint; `name` says which one, `detail` what a step did.
+    `kind` is phase, checklist, procedure, mode, waypoint or failure; `name` says which one, `detail` what a step did.
     """
 
     time: float

@@ -1,18 +1,17 @@
 """What can be known of a mission without flying: whether this aircraft, loaded so, can fly it on this day."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from itertools import islice
 from math import atan2, pi, tan
 from pathlib import Path
 
 from harness.errors import InputError, InputErrors, did_you_mean
-from harness.manual import FlightManual, read_manual, words_of
+from harness.manual import FlightManual, read_manual
 from harness.mission.envelope import STALL_MARGIN, Envelope
 from harness.mission.model import Leg, Mission, Position
 from harness.mission.reader import read_mission
+from harness.mission.words import word_faults
 from harness.navigation.database import Database, Ils, Runway, load
-from harness.plan import Condition, PhasePlan, Step
-from harness.plan_reader import check_plans, check_step
 from harness.units import DEG, FT, G0, HPA, KM, KT, NM, show
 from harness.world import earth
 from harness.xml_source import MOST_FAULTS
@@ -73,7 +72,7 @@ class _Checker:
         yield from self._last_waypoint()
         yield from self._ground("departure", self.departure)
         yield from self._ground("arrival", self.arrival)
-        yield from self._plans()
+        yield from word_faults(self.mission, self.manual)
 
     def _fault(self, path: str, what: str, remedy: str = "") -> InputError:
         file, line = self.mission.place(path)
@@ -262,38 +261,6 @@ class _Checker:
             if distance > FARTHEST_TAXI:
                 told = f"the {what} is {show(distance, 'km', 1)} from {runway.airport} {runway.designator}"
                 yield self._fault(f"{part}/{what}", told, "latitude and longitude the wrong way round?")
-
-    def _plans(self) -> Iterator[InputError]:
-        words = words_of(self.flown)
-        yield from check_plans(self.mission.phases.values(), words)
-        for leg in self.mission.legs:
-            for action in leg.actions:
-                yield from check_step(action, words)
-        for plan in self.mission.phases.values():
-            yield from self._removals(plan)
-            for checklist in (
-                self.flown.phases[plan.name].checklists if plan.name in self.flown.phases else ()
-            ):
-                if not checklist.items:
-                    what = f'nothing is left of the checklist from "{plan.name}" to "{checklist.to}"'
-                    remedy = "leave one item: an empty checklist is complete at once"
-                    yield InputError(what, file=checklist.file, line=checklist.line, remedy=remedy)
-
-    def _removals(self, plan: PhasePlan) -> Iterator[InputError]:
-        mine = self.manual.phases.get(plan.name, PhasePlan(plan.name, (), ()))
-        changed: list[tuple[Sequence[Step | Condition], list[str]]] = [
-            (plan.steps, [step.name for step in mine.steps]),
-            (
-                [item for checklist in plan.checklists for item in checklist.items],
-                [item.name for checklist in mine.checklists for item in checklist.items],
-            ),
-        ]
-        for entries, known in changed:
-            for entry in entries:
-                if entry.remove and entry.name not in known:
-                    what = f'the manual has no "{entry.name}" in {plan.name} to remove'
-                    remedy = did_you_mean(entry.name, known)
-                    yield InputError(what, file=entry.file, line=entry.line, remedy=remedy)
 
 
 def _knots(speed: float) -> str:

@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 from harness.navigation.database import Station
-from harness.plan import PhasePlan, Step
-from harness.units import Level, Speed
+from harness.plan import Failure, PhasePlan, Step
+from harness.units import Level, Quantity, Speed
 
 STANDARD_QNH = 101325.0
 
@@ -110,7 +110,8 @@ class Arrival(NamedTuple):
 class Mission:
     """All of a mission file.
 
-    `speeds` and `phases` change the flight manual for this mission only. `text` is the mission as flown, with
+    `speeds`, `gains` and `phases` change the flight manual for this mission only. `configuration` has the choice made
+    for each configuration of the manual that is not left as it is. `text` is the mission as flown, with
     its variants and overrides applied. `places` tells where each part was written (file, line), by its path.
     """
 
@@ -126,6 +127,9 @@ class Mission:
     phases: dict[str, PhasePlan]
     source_path: Path
     text: str
+    gains: dict[str, Quantity] = field(default_factory=dict)
+    configuration: dict[str, str] = field(default_factory=dict)
+    failures: tuple[Failure, ...] = ()
     places: dict[str, tuple[str, int | None]] = field(default_factory=dict, compare=False)
 
     def place(self, path: str) -> tuple[str, int | None]:

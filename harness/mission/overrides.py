@@ -14,7 +14,7 @@ from harness.errors import InputError, did_you_mean
 from harness.xml_source import Element, Source, children, shorten
 
 _STEP = re.compile(r"([^/\[\]]+)(?:\[([^\[\]]*)\])?(/|$)")
-_OPTIONAL = {"environment", "speed", "description"}
+_OPTIONAL = {"environment", "speed", "gain", "configuration", "description"}
 """Elements that are made when a path names one that is not there: their attributes mean something alone."""
 
 

@@ -21,8 +21,9 @@ from harness.mission.model import (
 from harness.mission.overrides import Override, apply, from_option, path_of
 from harness.mission.waypoint import NO_SPEED, coordinates, not_found, read_leg
 from harness.navigation.database import Database, Runway, load
-from harness.plan_reader import read_phase
-from harness.units import Speed, UnitError, parse_direction, parse_speed
+from harness.plan import Failure
+from harness.plan_reader import read_failure, read_phase
+from harness.units import Quantity, Speed, UnitError, parse_direction, parse_quantity, parse_speed
 from harness.xml_source import NAN, Element, Source, children
 
 SCHEMA = "mission.xsd"
@@ -83,6 +84,7 @@ class _Reader:
         description = self.source.one(root, "description", needed=False)
         aircraft = self.source.one(root, "aircraft")
         environment = self.source.one(root, "environment", needed=False)
+        configuration = self.source.one(root, "configuration", needed=False)
         route = self.source.one(root, "route")
         arrival = self.source.one(root, "arrival")
         phases = list(children(root, "phase"))
@@ -98,6 +100,9 @@ class _Reader:
             legs=self._legs(route, arrival),
             arrival=self._arrival(arrival),
             phases={phase.get("name", ""): read_phase(self.source, phase) for phase in phases},
+            gains=self._gains(aircraft),
+            configuration={} if configuration is None else _words(configuration),
+            failures=self._failures(self.source.one(root, "failures", needed=False)),
             source_path=self.source.path,
             text=etree.tostring(root.getroottree(), encoding="unicode"),
             places=self._places(),
@@ -126,6 +131,19 @@ class _Reader:
             element.get("name", ""): self.source.read(element, "value", _decision_speed, NO_SPEED)
             for element in elements
         }
+
+    def _gains(self, aircraft: Element | None) -> dict[str, Quantity]:
+        elements = [] if aircraft is None else list(children(aircraft, "gain"))
+        self.source.distinct(elements, "name")
+        return {
+            element.get("name", ""): self.source.read(element, "value", parse_quantity, Quantity(NAN, ""))
+            for element in elements
+        }
+
+    def _failures(self, element: Element | None) -> tuple[Failure, ...]:
+        elements = [] if element is None else list(children(element, "failure"))
+        self.source.distinct(elements, "name")
+        return tuple(read_failure(self.source, failure) for failure in elements)
 
     def _loading(self, element: Element | None) -> Loading:
         if element is None:
@@ -199,6 +217,11 @@ class _Reader:
         ]
         self.source.distinct(waypoints, "name")
         return tuple(read_leg(self.source, self.database, waypoint) for waypoint in waypoints)
+
+
+def _words(element: Element) -> dict[str, str]:
+    """The attributes of an element."""
+    return {str(name): str(value) for name, value in element.attrib.items()}
 
 
 def _decision_speed(text: str) -> Speed:

@@ -42,6 +42,7 @@ Number = Callable[[State], float]
 Test = Callable[[State], bool]
 
 MEASURES: Mapping[str, Callable[[Cockpit], Number]] = {
+    "time": lambda pilot: lambda state: state.time,
     "time-in-phase": lambda pilot: lambda state: state.time - pilot.phase_begin,
     "cas": lambda pilot: lambda state: state.cas,
     "ground-speed": lambda pilot: lambda state: hypot(state.velocity_north, state.velocity_east),

@@ -17,7 +17,7 @@ from harness.pilot.route import NavigationComputer
 from harness.plan import Step
 from harness.state import MEDIUM_PERIOD, Commands, State, close_to_ground, new_commands
 
-FAST = frozenset({"time-in-phase", "vertical-speed", "pitch"})
+FAST = frozenset({"time", "time-in-phase", "vertical-speed", "pitch"})
 """Quantities renewed at every pilot step; what waits for another one is read when the outer loops turn."""
 ROUTE_TURNS = 4  # turns of the outer loops between two looks at the route, far from the next waypoint
 NEAR_WAYPOINT = 15000.0  # m: more than the lead of any turn
@@ -268,6 +268,9 @@ class Pilot:
                 self.route.update_approach(state)
 
     def _note(self, kind: str, name: str, reason: str, detail: str = "") -> None:
-        event = Event(self._state.time if self._state else 0.0, kind, name, self.phase, reason, detail)
+        self.tell(Event(self._state.time if self._state else 0.0, kind, name, self.phase, reason, detail))
+
+    def tell(self, event: Event) -> None:
+        """Let everyone who listens know."""
         for listener in self.listeners:
             listener(event)

@@ -108,8 +108,8 @@ class JSBSimPlant:
         self._state = State(*[0.0] * len(FIELDS))
         self._close = False
         self._blind = MEDIUM_PERIOD  # pilot steps until more than the fast fields are read
-        self._setters = [[self._setter(name) for name in COMMANDS[field]] for field in Commands._fields]
-        self._set_terrain = self._setter("position/terrain-elevation-asl-ft")
+        self._setters = [[self.setter(name) for name in COMMANDS[field]] for field in Commands._fields]
+        self._set_terrain = self.setter("position/terrain-elevation-asl-ft")
         self._written = Commands(*[nan] * len(Commands._fields))
         self._structure = self._contacts()
         self._standing_height = self._read("position/h-agl-ft") * FT
@@ -245,7 +245,7 @@ class JSBSimPlant:
         return self._node(name).get_double_value()
 
     def _put(self, name: str, value: float) -> None:
-        self._setter(name)(value)
+        self.setter(name)(value)
 
     def _node(self, name: str) -> jsbsim.FGPropertyNode:
         node = self._manager.get_node(name)
@@ -259,7 +259,8 @@ class JSBSimPlant:
         node = self._node(binding.name)
         return node.get_double_value
 
-    def _setter(self, name: str) -> Callable[[float], object]:
+    def setter(self, name: str) -> Callable[[float], object]:
+        """What writes a property. Raises InputError when there is no such property, or it cannot be written."""
         node = self._node(name)
         if not node.get_attribute(jsbsim.Attribute.WRITE):
             raise InputError(f"property {name} cannot be written")

@@ -45,6 +45,7 @@ def test_the_examples_of_the_mission_file_are_fit_to_fly(repository: Path, tmp_p
     (tmp_path / "to-nuremberg-heavy.xml").write_text(variant, "utf-8")
     mission = check_file(tmp_path / "to-nuremberg.xml")
     assert {leg.mode for leg in mission.legs} == {"homing", "tracking", "direct"}
+    assert [failure.name for failure in mission.failures] == ["engine 2"]
     assert check_file(tmp_path / "to-nuremberg-heavy.xml").loading.takeoff_mass == 110_000.0
     override = "phase[DEP]/checklist[ENR.CLB]/item[clear of the town]/at-least=2500 ft"
     assert (

@@ -9,7 +9,7 @@ from harness.errors import InputError
 from harness.manual import FlightManual, read_manual
 from harness.plan import Checklist, Condition, PhasePlan, Step
 from harness.plan_reader import Reference, parse_reference
-from harness.units import DEG, FPM, FT, KT, Speed, UnitError
+from harness.units import DEG, FPM, FT, KT, Quantity, Speed, UnitError
 
 MANUAL = Path(__file__).parents[1] / "data" / "flight-manual.xml"
 
@@ -141,6 +141,7 @@ def change(name: str, *, remove: bool = False, required: str = "100 kt") -> Cond
 def test_a_mission_replaces_adds_and_removes_by_name(manual: FlightManual) -> None:
     class Changes:
         speeds: ClassVar = {"VR": Speed("CAS", 60.0)}
+        gains: ClassVar = {"altitude-time-constant": Quantity(9.0, "s")}
         phases: ClassVar = {
             "T/O.run": PhasePlan(
                 "T/O.run",
@@ -159,6 +160,8 @@ def test_a_mission_replaces_adds_and_removes_by_name(manual: FlightManual) -> No
         }
 
     changed = manual.with_mission(Changes())
+    assert changed.gains["altitude-time-constant"] == 9.0
+    assert manual.gains["altitude-time-constant"] == 12.0
     plan = changed.phases["T/O.run"]
     assert changed.speed("VR", 1e5) == 60.0
     assert [step.name for step in plan.steps] == ["thrust levers to TOGA", "airspeed alive", "a new step"]

@@ -418,3 +418,47 @@ def test_a_wrong_variant_is_refused_where_it_is_wrong(
     with pytest.raises(InputError) as refused:
         check_file(tmp_path / "v.xml")
     assert teaching in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("part", "message"),
+    [
+        ('<configuration flight-control="fly"/>', 'flight-control="fly" is not one of its choices\n    known: direct, full'),
+        ('<configuration brakes="steel"/>', 'gta has no configuration "brakes"'),
+        ('<failures><failure name="engine 9"/></failures>', 'gta has no failure "engine 9"\n    did you mean engine 1?'),
+        ('<failures><failure name="engine 1" phase="CRS"/></failures>', 'gta has no phase "CRS"\n    did you mean ENR.CRS'),
+        ('<failures><failure name="engine 1"><when quantity="cas" at-least="9 s"/></failure></failures>', '"9 s" is a time'),
+        ('<failures><failure name="engine 1"/><failure name="engine 1"/></failures>', "is here twice"),
+    ],
+)  # fmt: skip
+def test_configurations_and_failures_are_those_of_the_manual(
+    part: str, message: str, refusal: Refusal
+) -> None:
+    assert message in refusal("</mission>", f"{part}</mission>")
+
+
+@pytest.mark.parametrize(
+    ("gain", "message"),
+    [
+        (
+            'name="altitude-time" value="3 s"',
+            'gta has no gain "altitude-time"\n    did you mean altitude-time-constant',
+        ),
+        (
+            'name="altitude-time-constant" value="3 m"',
+            'the gain "altitude-time-constant" is in m\n    it is in s',
+        ),
+        ('name="altitude-time-constant" value="3"', "is in no unit"),
+        ('name="altitude-time-constant" value="three"', "is not a number"),
+    ],
+)
+def test_gains_are_those_of_the_manual_and_in_their_unit(gain: str, message: str, refusal: Refusal) -> None:
+    assert message in refusal('<aircraft name="gta"/>', f'<aircraft name="gta"><gain {gain}/></aircraft>')
+
+
+def test_a_configuration_can_be_chosen_from_the_command_line(original: Path) -> None:
+    mission = check_file(original, ["configuration/flight-control=direct"])
+    assert mission.configuration == {"flight-control": "direct"}
+    with pytest.raises(InputError, match="--set configuration/flight-control=indirect") as refused:
+        check_file(original, ["configuration/flight-control=indirect"])
+    assert "did you mean direct" in str(refused.value)

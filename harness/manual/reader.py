@@ -1,34 +1,14 @@
-"""The flight manual: limits, flaps, thrust settings, speeds, gains and phases of one type of aircraft.
+"""Reads aircraft/NAME/flight-manual.xml. Every fault has its file and line; one reading reports them all."""
 
-Its file is aircraft/NAME/flight-manual.xml; another aircraft is another file. A mission may change speeds and
-phases for its own flight (`FlightManual.with_mission`).
-"""
-
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
 from functools import partial
-from math import sqrt
 from pathlib import Path
-from typing import NamedTuple, Protocol
 
 from harness import resources
 from harness.errors import InputError, InputErrors, did_you_mean
-from harness.plan import Checklist, Condition, PhasePlan, Step
+from harness.manual.model import FlapSetting, FlightManual, Numbers, PropertySetting, SpeedRule
 from harness.plan_reader import Words, check_plans, read_phase
-from harness.units import G0, Speed, UnitError, parse, parse_any, parse_speed
-from harness.world.atmosphere import SEA_LEVEL_DENSITY
+from harness.units import Quantity, UnitError, parse, parse_any, parse_quantity, parse_speed
 from harness.xml_source import NAN, Element, Source, children
-
-__all__ = [
-    "Checklist",
-    "Condition",
-    "FlapSetting",
-    "FlightManual",
-    "PhasePlan",
-    "SpeedRule",
-    "Step",
-    "read_manual",
-]
 
 LIMITS: dict[str, str] = {
     "VMO": "cas",
@@ -50,92 +30,6 @@ LIMITS: dict[str, str] = {
 """Limits every manual states, with their kind of quantity; a manual may state more."""
 
 
-class FlapSetting(NamedTuple):
-    """A flap setting: position 0 up .. 1 landing, highest airspeed (m/s CAS), power-off lift coefficient."""
-
-    name: str
-    position: float
-    maximum_speed: float
-    maximum_lift_coefficient: float
-
-
-class SpeedRule(NamedTuple):
-    """A named speed: fixed (`cas`, m/s), or `stall_ratio` times the stall speed with `flaps`, `plus` m/s."""
-
-    name: str
-    cas: float | None = None
-    stall_ratio: float = 0.0
-    flaps: str = ""
-    plus: float = 0.0
-
-
-class Numbers(dict[str, float]):
-    """Numbers by name, from one file. A name that is not there is refused with an InputError that says which are."""
-
-    def __init__(self, what: str, file: Path, numbers: Mapping[str, float]) -> None:
-        super().__init__(numbers)
-        self._what = what
-        self._file = file
-
-    def __missing__(self, name: str) -> float:
-        raise _unknown(self._file, self._what, name, self)
-
-
-class Changes(Protocol):
-    """What a mission may change in the manual."""
-
-    @property
-    def speeds(self) -> dict[str, Speed]: ...
-    @property
-    def phases(self) -> dict[str, PhasePlan]: ...
-
-
-@dataclass(frozen=True)
-class FlightManual:
-    """What a pilot looks up. SI and radians; MMO is a Mach number; thrust settings are levers, -1..1."""
-
-    aircraft: str
-    limits: Mapping[str, float]
-    flaps: tuple[FlapSetting, ...]
-    thrust: Mapping[str, float]
-    speeds: Mapping[str, SpeedRule]
-    gains: Mapping[str, float]
-    phases: Mapping[str, PhasePlan]
-    source_path: Path
-
-    def flap(self, name: str) -> FlapSetting:
-        """The flap setting of that name. Raises InputError."""
-        for setting in self.flaps:
-            if setting.name == name:
-                return setting
-        raise _unknown(self.source_path, "flap setting", name, [setting.name for setting in self.flaps])
-
-    def stall_speed(self, mass: float, flaps: str) -> float:
-        """The power-off 1-g stall speed in m/s CAS at `mass` (kg). CAS is taken as EAS: it is, when slow.
-
-        Source: lift equals weight, CS 25.103.
-        """
-        lift = self.limits["wing-area"] * self.flap(flaps).maximum_lift_coefficient * SEA_LEVEL_DENSITY / 2
-        return sqrt(mass * G0 / lift)
-
-    def speed(self, name: str, mass: float) -> float:
-        """A named speed in m/s CAS at `mass` (kg). Raises InputError for a name the manual does not have."""
-        rule = self.speeds.get(name)
-        if rule is None:
-            raise _unknown(self.source_path, "speed", name, self.speeds)
-        if rule.cas is not None:
-            return rule.cas
-        return rule.stall_ratio * self.stall_speed(mass, rule.flaps) + rule.plus
-
-    def with_mission(self, mission: Changes) -> "FlightManual":
-        """This manual with the mission's speeds and phases in place of its own."""
-        speeds = {name: SpeedRule(name, cas=speed.value) for name, speed in mission.speeds.items()}
-        phases = dict(self.phases)
-        for name, change in mission.phases.items():
-            phases[name] = phases.get(name, PhasePlan(name, (), ())).changed_by(change)
-        return replace(self, speeds={**self.speeds, **speeds}, phases=phases)
-
-
 def read_manual(aircraft: str | Path) -> FlightManual:
     """Read and check the flight manual of an aircraft given by name, or a manual's file given as a Path.
 
@@ -144,6 +38,10 @@ def read_manual(aircraft: str | Path) -> FlightManual:
     source = Source(_manual_file(aircraft), "flight-manual.xsd", "flight-manual")
     source.validate()
     root = source.root
+    gains = {
+        element.get("name", ""): source.read(element, "value", parse_quantity, Quantity(NAN, ""))
+        for element in _entries(source, "gains")
+    }
     manual = FlightManual(
         aircraft=root.get("aircraft", ""),
         limits=_limits(source),
@@ -160,25 +58,27 @@ def read_manual(aircraft: str | Path) -> FlightManual:
         gains=Numbers(
             "gain",
             source.path,
-            {
-                element.get("name", ""): source.read(element, "value", parse_any, NAN)
-                for element in _entries(source, "gains")
-            },
+            {name: gain.value for name, gain in gains.items()},
         ),
         phases={
             element.get("name", ""): read_phase(source, element) for element in _entries(source, "phases")
         },
         source_path=source.path,
+        gain_units={name: gain.unit for name, gain in gains.items()},
+        configurations={
+            element.get("name", ""): _choices(source, element)
+            for element in _entries(source, "configurations", needed=False)
+        },
+        failures={
+            element.get("name", ""): _property_setting(source, element)
+            for element in _entries(source, "failures", needed=False)
+        },
     )
     source.finish()
     faults = [*_cross_references(manual, source), *check_plans(manual.phases.values(), words_of(manual))]
     if faults:
         raise InputErrors(faults)
     return manual
-
-
-def _unknown(file: Path, what: str, name: str, known: Iterable[str]) -> InputError:
-    return InputError(f'has no {what} "{name}"', file=file, remedy=did_you_mean(name, known))
 
 
 def _manual_file(aircraft: str | Path) -> Path:
@@ -199,8 +99,8 @@ def words_of(manual: FlightManual) -> Words:
     )
 
 
-def _entries(source: Source, section: str) -> list[Element]:
-    parent = source.one(source.root, section)
+def _entries(source: Source, section: str, *, needed: bool = True) -> list[Element]:
+    parent = source.one(source.root, section, needed=needed)
     if parent is None:
         return []
     entries = list(children(parent))
@@ -272,6 +172,19 @@ def _speed(source: Source, element: Element) -> SpeedRule:
         stall_ratio=source.quantity(element, "stall-ratio", "ratio"),
         flaps=element.get("flaps", ""),
         plus=source.quantity(element, "plus", "speed", 0.0),
+    )
+
+
+def _choices(source: Source, element: Element) -> dict[str, PropertySetting]:
+    choices = list(children(element, "choice"))
+    source.distinct(choices, "name")
+    return {choice.get("name", ""): _property_setting(source, choice) for choice in choices}
+
+
+def _property_setting(source: Source, element: Element) -> PropertySetting:
+    file, line = source.place(element)
+    return PropertySetting(
+        element.get("property", ""), source.quantity(element, "value", "ratio"), file, line or 0
     )
 
 
