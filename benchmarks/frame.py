@@ -1,6 +1,6 @@
 """What a frame of our aircraft costs: its time over that of the C130 shipped with JSBSim, stepped in the same run.
 
-`python benchmarks/frame.py [AIRCRAFT]` prints one JSON line. Both fly freely, hands off, from one height and speed;
+`python benchmarks/frame.py [AIRCRAFT]` prints one JSON line. Both fly freely, hands off, from the same height and
 speed; blocks of half a second of flight alternate, so both meet the same machine load, and the medians are compared.
 """
 
