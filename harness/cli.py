@@ -89,6 +89,26 @@ def parser() -> Parser:
     add_json(validating)
     validating.set_defaults(run=validate)
 
+    qualifying = commands.add_parser(
+        "qualify",
+        help="fly an aircraft's test guide and hold each result against its target",
+        description="Fly the objective tests of aircraft/NAME/qualification.csv; exit code 1 if a result is outside.",
+    )
+    qualifying.add_argument(
+        "aircraft", metavar="AIRCRAFT", nargs="?", default="gta", help="its name (default: %(default)s)"
+    )
+    qualifying.add_argument(
+        "--only", metavar="TEST", nargs="+", default=[], help="ids of tests, such as V10 V27"
+    )
+    qualifying.add_argument(
+        "--out", metavar="DIR", help="folder for the HTML page (default: none is written)"
+    )
+    qualifying.add_argument(
+        "--jobs", metavar="N", type=int, help="flights at once (default: one a processor)"
+    )
+    add_json(qualifying)
+    qualifying.set_defaults(run=qualify)
+
     listing = commands.add_parser(
         "list", help="missions, aircraft and scripts", description="What can be named."
     )
@@ -175,6 +195,30 @@ def validate(chosen: argparse.Namespace) -> int:
     if chosen.json:
         print_json({"inside": inside, "flights": [validation.as_data(verdict) for verdict in verdicts]})
     return 0 if inside else OUTSIDE
+
+
+def qualify(chosen: argparse.Namespace) -> int:
+    """`harness qualify`."""
+    from harness.qualify.command import run
+
+    if chosen.jobs is not None and chosen.jobs < 1:
+        raise InputError(f"{chosen.jobs} flights at once are none.", file="--jobs", remedy="give 1 or more")
+    verdicts, page = run(
+        chosen.aircraft,
+        chosen.only,
+        out=chosen.out,
+        jobs=chosen.jobs,
+        told=lambda text: say(f"harness: {text}"),
+    )
+    if chosen.json:
+        print_json([verdict.as_data() for verdict in verdicts])
+    else:
+        from harness.qualify.report import table
+
+        print(table(verdicts))
+        if page is not None:
+            print(f"page: {page}")
+    return 0 if all(verdict.inside for verdict in verdicts) else OUTSIDE
 
 
 def show_list(chosen: argparse.Namespace) -> int:

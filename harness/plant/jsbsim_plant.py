@@ -96,7 +96,7 @@ class JSBSimPlant:
         self._step = frames_per_step / rate
         self._terrain = terrain
         self._aircraft = aircraft
-        self._fdm = _load(root, aircraft, rate)
+        self._fdm = load(root, aircraft, rate)
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air)
         self._readings = [
@@ -272,7 +272,8 @@ _EVERY = range(len(Commands._fields))
 _MOVING = range(_STANDING)
 
 
-def _load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
+def load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
+    """A simulator with this aircraft, `rate` frames a second. Raises InputError when JSBSim refuses it."""
     messages = Messages()
     jsbsim.set_logger(messages)
     fdm = jsbsim.FGFDMExec(str(root))
