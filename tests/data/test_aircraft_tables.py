@@ -39,7 +39,8 @@ def interpolate(table: list[list[float]], x: float, column: int = 1) -> float:
 
 
 def test_table_arguments_rise(repository: Path):
-    for path in [*(repository / "aircraft/gta").glob("*.xml"), repository / "systems/gear.xml"]:
+    gear = [repository / "systems" / name for name in ("gear.xml", "wheels.xml")]
+    for path in [*(repository / "aircraft/gta").glob("*.xml"), *gear]:
         for table in ET.parse(path).getroot().iter("table"):
             body = [row for row in rows(table) if len(row) == len(rows(table)[-1])]
             arguments = [row[0] for row in body]
@@ -119,18 +120,33 @@ def test_derivatives_have_the_right_sign(aerodynamics: ET.Element, moment: str, 
     raise AssertionError(f"no term of {motion} in {moment}")
 
 
-def test_wheels_and_structure_are_symmetric(repository: Path):
+def test_wheels_are_symmetric_and_counted_as_the_systems_count_them(repository: Path):
     contacts = ET.parse(repository / "aircraft/gta/ground-reactions.xml").getroot().findall("contact")
-    places = [tuple(float(c.findtext(f"location/{axis}") or "") for axis in "xyz") for c in contacts]
+    wheels, structure = contacts[:3], contacts[3:]
+    assert [contact.get("type") for contact in contacts] == ["BOGEY"] * 3 + ["STRUCTURE"] * 3
+    places = [tuple(float(c.findtext(f"location/{axis}") or "") for axis in "xyz") for c in wheels]
     assert sorted(places) == sorted((x, -y if y else y, z) for x, y, z in places)
-    wheels = [contact.get("type") == "BOGEY" for contact in contacts]
-    assert wheels == [True] * 7 + [False] * 7  # systems/gear.xml counts on the unit numbers
+    assert structure[2].get("name") == "LOWER_WING"  # contact/unit[5], which systems/gear.xml moves
 
 
-def test_tyre_side_force_is_odd_in_slip(repository: Path):
-    for table in ET.parse(repository / "aircraft/gta/ground-reactions.xml").getroot().iter("table"):
-        body = rows(table)
-        assert body == [[-slip, -force] for slip, force in reversed(body)]
+def legs(text: str) -> list[str]:
+    """The blocks of systems/wheels.xml that describe one main leg, with its indices and place replaced."""
+    blocks = []
+    for number, block in re.findall(r"<!-- leg ([1-6]), [^>]*-->(.*?)(?=<!--|</channel>)", text, re.DOTALL):
+        leg, side = int(number), 1 + int(number) // 4
+        alike = re.sub(rf"\b(leg-\w+(?:-\w+)?|bump-m|tyre-drag-n)\[{leg}\]", r"\1[leg]", block)
+        alike = re.sub(rf"(strut-damping-n|side-stroke-m|applied-share)\[{side}\]", r"\1[side]", alike)
+        for wheel in (0, 1):
+            alike = alike.replace(f"twin-speed-mps[{2 * side + wheel}]", f"twin-speed-mps[{wheel}]")
+            alike = re.sub(rf"(\w+)\[{2 * leg + wheel}\]", rf"\1[wheel {wheel}]", alike)
+        blocks.append(re.sub(r"<value>(18\.860|20\.060|21\.260)</value>", "<value>x</value>", alike))
+    return [" ".join(block.split()) for block in blocks]
+
+
+def test_the_six_main_legs_are_alike(repository: Path):
+    blocks = legs((repository / "systems/wheels.xml").read_text("utf-8"))
+    assert len(blocks) == 18  # stroke; wheels; tyres and swing
+    assert len(set(blocks)) == 3
 
 
 def test_inertia_follows_from_the_radii_of_gyration(repository: Path):

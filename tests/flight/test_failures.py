@@ -339,9 +339,9 @@ def test_two_flights_into_one_folder_do_not_meet(tmp_path: Path, repository: Pat
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("<system name='gear'>", "systems/gear.xml:"),
-        ("<system name='gear'/>", "gear/main-wow"),
-        (None, "gear.xml"),
+        ("<system name='wheels'>", "systems/wheels.xml:"),
+        ("<system name='wheels'/>", "gear/main-wow"),
+        (None, "wheels.xml"),
     ],
     ids=["malformed", "an output missing", "a file missing"],
 )
@@ -352,8 +352,8 @@ def test_an_aircraft_that_jsbsim_cannot_load_is_refused(
         shutil.copytree(
             repository / folder, tmp_path / folder, ignore=shutil.ignore_patterns("__pycache__", "analysis")
         )
-    gear = tmp_path / "systems" / "gear.xml"
-    gear.unlink() if content is None else gear.write_text(content, "utf-8")
+    wheels = tmp_path / "systems" / "wheels.xml"
+    wheels.unlink() if content is None else wheels.write_text(content, "utf-8")
     command = [sys.executable, "-P", "-m", "harness", "fly", BASE, "--out", str(tmp_path / "out")]
     environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
     result = subprocess.run(
