@@ -6,7 +6,7 @@ from typing import Protocol
 
 from harness.errors import FlightError, InputError, TimeLimitError
 from harness.instructor import Instructor, configure
-from harness.log import Event, Reporter
+from harness.log import Event, Inputs, Reporter
 from harness.manual import FlightManual
 from harness.mission.model import Mission
 from harness.navigation.database import Ils, Runway, load
@@ -39,12 +39,14 @@ def fly_mission(
     rate: int = 120,
     observers: Sequence[Observer] = (),
     time_limit: float = TIME_LIMIT,
+    inputs: Inputs | None = None,
 ) -> None:
     """Fly `mission` from its beginning until the pilot is done.
 
-    `rate` is frames a second, one of RATES. Raises FlightError when the mission cannot be completed.
+    `rate` is frames a second, one of RATES; `inputs` is filled with all that is written into the simulator.
+    Raises FlightError when the mission cannot be completed.
     """
-    pilot, plant = prepare(mission, manual, rate=rate)
+    pilot, plant = prepare(mission, manual, rate=rate, inputs=inputs)
     pilot.listeners.extend(observer.note for observer in observers)
     instructor = Instructor(pilot, plant, pilot.tell)
     watch = [observer.see for observer in observers]
@@ -61,12 +63,15 @@ def fly_mission(
                 raise TimeLimitError(
                     f"still flying after {time_limit:.0f} s", time=state.time, phase=pilot.phase
                 )
+        plant.renew()  # what is recorded at the end is the end
     except FlightError as error:
         error.phase = pilot.phase
         raise
 
 
-def prepare(mission: Mission, manual: FlightManual, *, rate: int) -> tuple[Pilot, JSBSimPlant]:
+def prepare(
+    mission: Mission, manual: FlightManual, *, rate: int, inputs: Inputs | None = None
+) -> tuple[Pilot, JSBSimPlant]:
     """Make the pilot and the plant of a mission, ready for the first step. Raises InputError."""
     if rate not in RATES:
         raise InputError(f"{rate} frames a second are not possible", remedy="choose 120, 240 or 480")
@@ -90,6 +95,7 @@ def prepare(mission: Mission, manual: FlightManual, *, rate: int) -> tuple[Pilot
             -day.wind_speed * sin(day.wind_from),
         ),
         terrain=_Terrain(departure, arrival),
+        inputs=inputs,
     )
     configure(plant, [manual.configurations[name][choice] for name, choice in mission.configuration.items()])
     return Pilot(mission, manual, departure, Ils(arrival), 1.0 / PILOT_RATE), plant

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from harness import __version__, resources
 from harness.errors import FlightError
-from harness.log import Event, FlightLog, Reporter, Run, RunFolder, conclude, write_run
+from harness.log import Event, FlightLog, Inputs, Reporter, Run, RunFolder, conclude, write_run
 from harness.manual import read_manual
 from harness.mission.check import check_file
 from harness.state import Commands, State
@@ -77,7 +77,7 @@ class Session:
     ) -> tuple[Run, FlightError | KeyboardInterrupt | None]:
         from harness.flight import fly_mission
 
-        log = FlightLog()
+        log, inputs = FlightLog(), Inputs()
         observers: list[Observer] = [
             log,
             *([progress] if progress else []),
@@ -86,13 +86,14 @@ class Session:
         stopped: FlightError | KeyboardInterrupt | None = None
         begin = time.perf_counter()
         try:
-            fly_mission(self.mission, self.manual, rate=rate, observers=observers)
+            fly_mission(self.mission, self.manual, rate=rate, observers=observers, inputs=inputs)
         except (FlightError, KeyboardInterrupt) as error:
             stopped = error
         wall_time = time.perf_counter() - begin
         reason = "" if stopped is None else str(stopped) or "interrupted from the keyboard"
         run = conclude(
             log,
+            inputs,
             identity=self._identity(rate),
             fixes={leg.name: (leg.fix.latitude, leg.fix.longitude) for leg in self.mission.legs},
             last_waypoint=[leg.name for leg in self.mission.legs if leg.part == "route"][-1],

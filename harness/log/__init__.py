@@ -4,6 +4,7 @@
 """
 
 from harness.log.files import RunFolder, read_run, write_run
+from harness.log.inputs import Inputs
 from harness.log.record import FlightLog, Reporter
 from harness.log.run import Event, Passage, Run
 from harness.log.summary import conclude
@@ -11,6 +12,7 @@ from harness.log.summary import conclude
 __all__ = [
     "Event",
     "FlightLog",
+    "Inputs",
     "Passage",
     "Reporter",
     "Run",

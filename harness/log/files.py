@@ -16,6 +16,7 @@ from typing import Any, Self
 import numpy as np
 
 from harness.errors import InputError, OutputError
+from harness.log.inputs import write_inputs
 from harness.log.run import UNITS, Event, History, Passage, Run
 from harness.units import DEG
 
@@ -125,6 +126,8 @@ def write_run(run: Run, folder: Path) -> None:
         summary = json.dumps(run.summary, indent=2, allow_nan=False, ensure_ascii=False)
         (folder / "summary.json").write_text(summary + "\n", "utf-8")
         (folder / "mission.xml").write_text(run.mission_text, "utf-8")
+        if run.inputs:
+            write_inputs(run.inputs, folder)
 
 
 def read_run(folder: str | PathLike[str]) -> Run:

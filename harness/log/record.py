@@ -58,6 +58,7 @@ class FlightLog:
         self._mode_names: tuple[str, ...] = ()
         self._target_names: tuple[str, ...] = ()
         self._countdown = 1
+        self._step = 0  # of the next record
         self._aloft = False
         self._brake: float | None = None
         self._on_ground = 1.0
@@ -84,7 +85,9 @@ class FlightLog:
             self.passages += [(event, copy(state)) for event in self._passed]
             self._passed.clear()
         if self._countdown <= 0:
-            self._countdown = _interval(state)
+            period = _interval(state)
+            self._countdown = period - self._step % period
+            self._step += self._countdown
             self._aloft = state.height > LOW  # until the next record neither wheels nor brakes can matter
             self._record(state, commands, pilot)
 
@@ -149,7 +152,7 @@ class FlightLog:
 
 
 def _interval(state: State) -> int:
-    """Pilot steps to the next record: no more often than most of State is renewed."""
+    """Pilot steps from record to record, on multiples: no more often than most of State is renewed."""
     if close_to_ground(state.height, state.cas):
         return 2
     return MEDIUM_PERIOD if state.height < LOW else 24

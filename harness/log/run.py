@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.log.inputs import Inputs
+
 History = dict[str, NDArray[Any]]
 
 _STATE_UNITS = {
@@ -78,7 +80,8 @@ class Run:
     """A flight that was flown, whole or not.
 
     `history` maps a column to an array, all of one length, in the SI unit that `units` gives; `phase` and the
-    `mode_*` columns hold words. `summary` is described in docs/summary-schema.md. `folder` is where the run
+    `mode_*` columns hold words. `summary` is described in docs/summary-schema.md. `inputs` is
+    what was written into the simulator; `read_run` leaves it in its file. `folder` is where the run
     is kept, if it is.
     """
 
@@ -87,6 +90,7 @@ class Run:
     passages: tuple[Passage, ...]
     summary: dict[str, Any]
     mission_text: str
+    inputs: Inputs | None = None
     folder: Path | None = None
 
     @property

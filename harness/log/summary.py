@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from harness.log.inputs import Inputs
 from harness.log.record import FlightLog
 from harness.log.run import Event, History, Passage, Run
 from harness.state import State
@@ -20,6 +21,7 @@ LIBRARIES = ("jsbsim", "numpy")
 
 def conclude(
     log: FlightLog,
+    inputs: Inputs,
     *,
     identity: Mapping[str, object],
     fixes: Mapping[str, tuple[float, float]],
@@ -28,7 +30,7 @@ def conclude(
     wall_time: float,
     failure: str,
 ) -> Run:
-    """Make the run out of what was recorded.
+    """Make the run out of what was recorded, and of what was written into the simulator.
 
     `identity` goes into the summary as it is; `fixes` are the waypoints' latitudes and longitudes (rad),
     `last_waypoint` is the name of the route's last one, before the arrival;
@@ -47,7 +49,7 @@ def conclude(
         "real_time_factor": simulated / wall_time if wall_time > 0 else None,
         "versions": {"python": platform.python_version()} | {name: version(name) for name in LIBRARIES},
     }
-    return Run(history, tuple(log.events), passages, _finite(summary), mission_text)
+    return Run(history, tuple(log.events), passages, _finite(summary), mission_text, inputs)
 
 
 def _flight(

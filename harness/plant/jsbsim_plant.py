@@ -11,6 +11,8 @@ from typing import NamedTuple
 import jsbsim
 
 from harness.errors import InputError, NumericalError
+from harness.log import Inputs
+from harness.log.inputs import AT_START, BEFORE, Write
 from harness.plant.impact import IMPACT_SINK, impact
 from harness.plant.messages import Messages
 from harness.plant.properties import COMMANDS, PSF, STATE, Binding
@@ -40,7 +42,7 @@ TERRAIN_PERIOD = 24  # pilot steps between two looks at the terrain below
 TERRAIN_HEIGHT = 60.0  # m; nearer the ground its elevation stays what it was
 MOST_CONTACTS = 32  # gear units and structure contacts an aircraft may have
 STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground trim finds the true one
-GROUND_TRIM = 2  # JSBSim's trim mode for an aircraft on its wheels
+GROUND_TRIM = 2.0  # JSBSim's trim mode for an aircraft on its wheels
 TANKS = 7
 BELOW_GROUND = -2.0  # m: no strut is that short
 
@@ -87,14 +89,20 @@ class JSBSimPlant:
         loads: Loads,
         air: Air,
         terrain: Callable[[float, float], float],
+        inputs: Inputs | None = None,
     ) -> None:
-        """`rate` is frames a second; `terrain(latitude, longitude)` the elevation in metres.
+        """`rate` is frames a second; `terrain(latitude, longitude)` the elevation in metres;
+        `inputs` is filled with all that is written into the simulator.
 
         Raises InputError when the aircraft cannot be loaded or lacks a property that the pilot needs.
         """
         self._frames = range(frames_per_step)
         self._step = frames_per_step / rate
         self._terrain = terrain
+        self._inputs = inputs or Inputs()
+        self._inputs.rate, self._inputs.frames_per_step = rate, frames_per_step
+        self._wrote = self._inputs.writes.append
+        self._steps = BEFORE
         self._aircraft = aircraft
         self._fdm = load(root, aircraft, rate)
         self._manager = self._fdm.get_property_manager()
@@ -114,11 +122,11 @@ class JSBSimPlant:
         self._structure = self._contacts()
         self._standing_height = self._read("position/h-agl-ft") * FT
         self._run = self._fdm.run
-        self._steps = 0
         self._terrain_seen = 0
         self._read_whole = 0
         self._sink = 0.0
         self._write(Commands())
+        self._steps = 0
         self._renew(self._readings)
 
     @property
@@ -141,6 +149,7 @@ class JSBSimPlant:
         for _ in self._frames:
             run()
         self._steps += 1
+        self._inputs.steps = self._steps
         self._blind -= 1
         if self._blind <= 0:
             return self._look_around()
@@ -154,6 +163,10 @@ class JSBSimPlant:
         state.pitch = pitch
         return state
 
+    def renew(self) -> None:
+        """Renew all of State, whatever was due. Raises NumericalError."""
+        self._renew(self._readings)
+
     def _look_around(self) -> State:
         """Read more of State, and see whether it is still the state of an aircraft."""
         state = self._state
@@ -163,7 +176,9 @@ class JSBSimPlant:
         self._renew(self._readings if whole else self._medium_readings)
         sink, self._sink = self._sink, -state.vertical_speed
         self._close = close_to_ground(state.height, state.cas)
-        self._blind = 1 if self._close else MEDIUM_PERIOD
+        # on multiples of the period, as the log records: a record never holds an older position than its time
+        odd = self._steps % 2  # records made close to the ground are every second step
+        self._blind = 1 if self._close or odd else MEDIUM_PERIOD - self._steps % MEDIUM_PERIOD
         if state.height < LOW:
             struck = any(map(call, self._structure)) or state.height < BELOW_GROUND
             if struck or (state.main_on_ground and sink > IMPACT_SINK):
@@ -219,7 +234,8 @@ class JSBSimPlant:
             raise _refused(self._fdm, self._aircraft, str(error)) from error
         if not ready:
             raise InputError("JSBSim could not set the initial conditions")
-        self._fdm.do_trim(GROUND_TRIM)
+        self._steps = AT_START
+        put("simulation/do_simple_trim", GROUND_TRIM)
         put("atmosphere/wind-north-fps", air.north / FT)
         put("atmosphere/wind-east-fps", air.east / FT)
 
@@ -264,7 +280,13 @@ class JSBSimPlant:
         node = self._node(name)
         if not node.get_attribute(jsbsim.Attribute.WRITE):
             raise InputError(f"property {name} cannot be written")
-        return node.set_double_value
+        put, wrote = node.set_double_value, self._wrote
+
+        def write(value: float) -> None:
+            wrote(Write(self._steps, name, value))
+            put(value)
+
+        return write
 
 
 _STANDING = Commands._fields.index("pitch_hold")  # from here on commands change by procedures only

@@ -7,7 +7,7 @@ from types import ModuleType
 
 import pytest
 
-from harness.log import FlightLog, conclude
+from harness.log import FlightLog, Inputs, conclude
 from harness.mission.check import check_file
 from harness.vocabulary import EDGES, PHASES
 
@@ -57,6 +57,7 @@ def test_the_examples_of_the_mission_file_are_fit_to_fly(repository: Path, tmp_p
 def test_every_key_of_the_summary_is_described(repository: Path) -> None:
     run = conclude(
         FlightLog(),
+        Inputs(),
         identity=dict.fromkeys(
             (
                 "mission",

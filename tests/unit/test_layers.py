@@ -10,7 +10,7 @@ ROOMS = {
     "jsbsim": "harness/plant",
     "lxml": ("harness/xml_source.py", "harness/mission/"),
     "matplotlib": "harness/analysis/plots",
-    "pyarrow": "harness/log/files.py",
+    "pyarrow": "harness/log/",
     "pyproj": "harness/world/earth.py",
     "transitions": "harness/pilot/machine.py",
 }

@@ -10,7 +10,7 @@ import pytest
 from pyarrow import parquet
 
 from harness.errors import InputError, OutputError
-from harness.log import Event, FlightLog, Run, RunFolder, conclude, read_run, write_run
+from harness.log import Event, FlightLog, Inputs, Run, RunFolder, conclude, read_run, write_run
 from harness.log.run import UNITS
 from harness.state import FIELDS, Commands, State
 
@@ -65,6 +65,7 @@ def run_of(log: FlightLog, failure: str = "") -> Run:
     fix = (100.0 * SPEED / 6.4e6, 0.0001)
     return conclude(
         log,
+        Inputs(),
         identity={"mission": "test"},
         fixes={"WP1": fix},
         last_waypoint="WP1",
