@@ -16,16 +16,18 @@ FILES = (
 )
 FUEL_DENSITY = 0.785  # kg/l
 USABLE_FUEL = 62267.0  # l, EASA TCDS A.169
+LEVER = "fcs/throttle-cmd-norm[0]"
 
 
 def system(name: str) -> ET.Element:
     return ET.parse(ROOT / "systems" / f"{name}.xml").getroot()
 
 
-def table_of(name: str, component: str) -> list[list[float]]:
-    """Rows of the table inside the fcs_function `component`."""
+def table_of(name: str, component: str, over: str) -> list[list[float]]:
+    """Rows of the last table over the property `over` inside the fcs_function `component`."""
     function = next(f for f in system(name).iter("fcs_function") if f.attrib["name"] == component)
-    text = function.findtext(".//tableData") or ""
+    tables = [t for t in function.iter("table") if (t.findtext("independentVar") or "").strip() == over]
+    text = tables[-1].findtext("tableData") or ""
     return [[float(cell) for cell in line.split()] for line in text.strip().splitlines()]
 
 
@@ -52,35 +54,59 @@ def test_tables_rise_in_their_first_column(name: str) -> None:
             assert keys == sorted(set(keys)), function.attrib["name"]
 
 
-@pytest.mark.parametrize("name", SYSTEMS)
-def test_the_four_engines_have_the_same_tables(name: str) -> None:
-    tables: dict[str, set[str]] = {}
-    for function in system(name).iter("fcs_function"):
-        family, index, _ = function.attrib["name"].partition("[")
-        text = function.findtext(".//tableData")
-        if index and text is not None:
-            tables.setdefault(family, set()).add(" ".join(text.split()))
-    assert all(len(variants) == 1 for variants in tables.values()), tables
+def test_the_four_engines_are_written_alike() -> None:
+    """All that differs between them is the number."""
+    for name in ("propulsion-engines", "propulsion-fadec"):
+        families: dict[str, set[str]] = {}
+        for component in (*system(name).iter("fcs_function"), *system(name).iter("switch")):
+            family, index, rest = component.attrib["name"].partition("[")
+            if index:
+                text = ET.tostring(component, encoding="unicode").replace(f"[{rest}", "[i]")
+                families.setdefault(family, set()).add(" ".join(text.split()))
+        assert families
+        assert all(len(variants) == 1 for variants in families.values()), families
 
 
 def test_more_lever_never_means_less_power() -> None:
+    rows = table_of("propulsion-engines", "propulsion/engine-power-kw[0]", LEVER)[1:]
     for column in (1, 2):
-        powers = [row[column] for row in table_of("propulsion-engines", "propulsion/lever-power-norm[0]")[1:]]
+        powers = [row[column] for row in rows]
         assert powers == sorted(powers)
         assert powers[-1] == 1.0
 
 
+def test_flatter_blades_are_given_less_power() -> None:
+    powers = [
+        power
+        for _, power in table_of(
+            "propulsion-engines", "propulsion/engine-power-kw[0]", "fadec/blade-angle-deg[0]"
+        )
+    ]
+    assert powers == sorted(powers)
+    assert powers[-1] > 7971.0
+
+
 def test_the_ground_range_goes_from_reverse_through_flat_to_flight() -> None:
-    stops = table_of("propulsion-fadec", "fadec/fine-stop-deg[0]")
-    angles = [angle for _, angle in stops]
+    reverse, forward = (
+        [
+            [float(cell) for cell in line.split()]
+            for line in (table.findtext("tableData") or "").strip().splitlines()
+        ]
+        for function in system("propulsion-fadec").iter("fcs_function")
+        if function.attrib["name"] == "fadec/ground-stop-deg[0]"
+        for table in function.iter("table")
+        if (table.findtext("independentVar") or "").strip() == LEVER
+    )
+    angles = [angle for _, angle in (*reverse, *forward[2:])]
     assert angles == sorted(angles)
     assert angles[0] < -5.0 < 0.0 < angles[-1]
+    assert forward[1] == reverse[-1]  # idle is the same from both sides
 
 
 def test_the_propeller_speeds_are_the_public_ones() -> None:
-    rows = table_of("propulsion-fadec", "fadec/governor-rpm")
-    assert rows[0][1] == 842.0
-    assert all(655.0 <= rpm <= 842.0 for _, rpm in rows)
+    rows = table_of("propulsion-fadec", "fadec/governor-rpm", "velocities/mach")[1:]
+    assert rows[0][1:] == [842.0, 655.0]
+    assert all(655.0 <= rpm <= 842.0 for row in rows for rpm in row[1:])
 
 
 def test_the_tanks_hold_the_certified_fuel() -> None:
@@ -109,12 +135,24 @@ def test_engines_and_tanks_mirror_left_and_right() -> None:
     assert sum(place(tank)[1] for tank in root.findall("tank")) == pytest.approx(0.0)
 
 
-def test_each_jet_pushes_behind_its_own_propeller() -> None:
-    forces = ET.parse(ROOT / "aircraft/gta/external-reactions.xml").getroot().findall("force")
+def test_the_jets_push_behind_their_propellers() -> None:
+    """One force and one moment do what four forces at the hubs' arms would."""
     engines = ET.parse(ROOT / "aircraft/gta/propulsion.xml").getroot().findall("engine")
-    for index, (force, engine) in enumerate(zip(forces, engines, strict=True)):
-        assert (force.findtext(".//property") or "").strip() == f"propulsion/jet-thrust-n[{index}]"
-        assert float(force.findtext("location/y") or "nan") == float(
-            engine.findtext(".//location/y") or "nan"
-        )
-        assert float(force.findtext("location/x") or "nan") > float(engine.findtext(".//location/x") or "nan")
+    arms = [float(engine.findtext(".//location/y") or "nan") for engine in engines]
+    yaw = next(
+        f
+        for f in system("propulsion-engines").iter("fcs_function")
+        if f.attrib["name"] == "propulsion/jet-yaw-nm"
+    )
+    coefficients = [0.0] * 4
+    for product in yaw.iter("product"):
+        arm = float(product.findtext("value") or "nan")
+        left, right = (int((p.text or "").strip()[-2]) for p in product.iter("property"))
+        coefficients[left], coefficients[right] = arm, -arm
+    assert coefficients == [-arm for arm in arms]
+    reactions = ET.parse(ROOT / "aircraft/gta/external-reactions.xml").getroot()
+    assert [float(force.findtext("location/y") or "nan") for force in reactions.findall("force")] == [0.0]
+    assert [
+        (element.findtext(".//property") or "").strip()
+        for element in (*reactions.findall("force"), *reactions.findall("moment"))
+    ] == ["propulsion/jet-total-n", "propulsion/jet-yaw-nm"]
