@@ -153,13 +153,13 @@ class Bench:
             ("w-fps", flow.tas * sin(flow.alpha) * cos(flow.beta) / FT),
         ):
             self.put(f"ic/{name}", value)
-        self._initialise()
+        self.initialise()
 
     def park(self, heading: float = 0.0) -> None:
         """Stand on a runway at sea level, engines off, brakes on."""
         self.put("ic/h-agl-ft", STANDING_HEIGHT / FT)
         self.put("ic/psi-true-deg", degrees(heading))
-        self._initialise()
+        self.initialise()
         self._fdm.do_trim(2)
         self.brakes(1.0)
         self.move(True)
@@ -234,6 +234,7 @@ class Bench:
             raise ArithmeticError("the state of the aircraft is no longer finite")
         return {name: table[:, i] for i, name in enumerate(("time", *(name for name, _ in bindings)))}
 
-    def _initialise(self) -> None:
+    def initialise(self) -> None:
+        """Take the motion from the initial conditions; engines and systems stay as they are."""
         if not self._fdm.run_ic():
             raise InputError("JSBSim could not set the initial conditions")

@@ -111,7 +111,9 @@ def trim(
 
 
 def fly_by_hand(bench: Bench) -> None:
-    """Inner loops off: the stick moves the surfaces."""
+    """All laws and dampers off: the stick moves the surfaces of the bare airframe."""
+    bench.put("fcs/law", 1.0)
+    bench.put("fcs/augmentation", 0.0)
     for axis in ("pitch", "roll", "yaw"):
         bench.put(f"ap/{axis}-mode", 0.0)
 
