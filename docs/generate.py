@@ -118,6 +118,7 @@ def settings() -> str:
         "up-down": _words(("up", "down")),
         "course": _words(("runway",)),
         "ratio": "a number, full travel is 1",
+        "load": "the name of a pallet",
     }
     rows = [(f"`{name}`", values[kind]) for name, kind in vocabulary.SETTINGS.items()]
     return table(("set", "to"), rows)

@@ -166,13 +166,17 @@ def end(*_: object) -> NoReturn:
 
 def check(chosen: argparse.Namespace) -> int:
     """`harness check`."""
+    from harness.mission.balance import LoadSheet
     from harness.session import Session
 
-    mission = Session(chosen.mission, chosen.overrides).mission
+    session = Session(chosen.mission, chosen.overrides)
+    mission, sheet = session.mission, LoadSheet(session.mission, session.manual)
     if chosen.json:
-        print_json({"mission": mission.name, "file": str(mission.source_path), "ok": True, "faults": []})
+        fit = {"mission": mission.name, "file": str(mission.source_path), "ok": True, "faults": []}
+        print_json({**fit, "loading": sheet.data()})
     else:
         print(f"{mission.source_path}: {mission.name} is fit to fly, as far as can be known without flying.")
+        print(sheet)
     return 0
 
 

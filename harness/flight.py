@@ -6,6 +6,7 @@ from typing import Protocol
 
 from harness.errors import FlightError, InputError, TimeLimitError
 from harness.instructor import Instructor, configure
+from harness.loading.aircraft import read_stowage
 from harness.log import Event, Inputs, Reporter
 from harness.manual import FlightManual
 from harness.mission.model import Mission
@@ -87,7 +88,7 @@ def prepare(
         rate=rate,
         frames_per_step=rate // PILOT_RATE,
         placement=_placement(mission, departure),
-        loads=Loads(mission.loading.payload_of(empty), mission.loading.fuel),
+        loads=_loads(mission, empty),
         air=Air(
             day.isa_deviation,
             day.qnh,
@@ -99,6 +100,19 @@ def prepare(
     )
     configure(plant, [manual.configurations[name][choice] for name, choice in mission.configuration.items()])
     return Pilot(mission, manual, departure, Ils(arrival), 1.0 / PILOT_RATE), plant
+
+
+def _loads(mission: Mission, empty_mass: float) -> Loads:
+    loading, released = mission.loading, mission.released
+    fuel = [item.mass for item in read_stowage(mission.aircraft).fuel(loading.fuel)]
+    if not loading.items:
+        return Loads(fuel, loading.payload_of(empty_mass))
+    pallets = {pallet.item.name: pallet for pallet in loading.pallets}
+    return Loads(
+        fuel,
+        fixed=[item for item in loading.items if item.name not in released],
+        released=[(pallets[name].item, pallets[name].parachute) for name in released],
+    )
 
 
 def _placement(mission: Mission, runway: Runway) -> Placement:

@@ -18,7 +18,7 @@ _OFFSET = re.compile(r"(\S+) ([+-]) (.+)")
 _ALWAYS = frozenset({"name", "remove", "set", "mode", "to"})
 _POSITIONS = {"up": 0.0, "down": 1.0}
 
-_ONE_SIDED = frozenset({"brakes", "speedbrake", "ground-spoilers"})
+_ONE_SIDED = frozenset({"brakes", "speedbrake", "ground-spoilers", "crossfeed", "ramp"})
 _STEEPEST = {
     "pitch": 30 * DEG,
     "bank": 60 * DEG,
@@ -29,11 +29,12 @@ Meaning = TypeVar("Meaning")
 
 
 class Words(NamedTuple):
-    """The names a flight manual gives to speeds, thrust settings and flap settings."""
+    """The names a flight manual gives to speeds, thrust settings and flap settings, and a mission to its loads."""
 
     speeds: frozenset[str]
     thrust: frozenset[str]
     flaps: frozenset[str]
+    loads: frozenset[str] = frozenset()
 
 
 class Reference(NamedTuple):
@@ -210,6 +211,7 @@ def _check_setting(action: dict[str, str], words: Words) -> None:
         "flap-setting": words.flaps,
         "up-down": frozenset(_POSITIONS),
         "course": frozenset({"runway"}),
+        "load": words.loads,
     }
     if kind in choices:
         _known(action["to"], dict.fromkeys(choices[kind], ""), f"a position of {action['set']}")

@@ -50,6 +50,9 @@ class State:
     propeller_speed: float  # of the slowest propeller, rad/s
     pressure: float  # static, Pa
     temperature: float  # static, K
+    centre_of_gravity: float  # aft of the nose, m
+    dropped: float  # kg of load gone over the ramp
+    fuel_leaked: float  # kg
     greatest_load_factor: float  # since the first lift-off, airborne, as are the following: seen at 60 Hz
     least_load_factor: float
     greatest_bank: float  # rad, either way
@@ -95,6 +98,9 @@ class Commands(NamedTuple):
     gear: float = 1.0
     speedbrake: float = 0.0
     spoiler: float = 0.0  # ground spoilers
+    crossfeed: float = 0.0  # 1: all crossfeed valves open
+    ramp: float = 0.0  # 0 closed .. 1 open
+    release: float = 0.0  # number of the load to go, in the order of `Mission.released`
 
 
 new_commands: Callable[[Iterable[float]], Commands] = partial(tuple.__new__, Commands)

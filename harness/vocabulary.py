@@ -107,8 +107,11 @@ SETTINGS: dict[str, str] = {
     "ground-spoilers": "ratio",
     "brakes": "ratio",
     "course": "course",
+    "crossfeed": "ratio",
+    "ramp": "ratio",
+    "release": "load",
 }
-"""What a procedure step can set, with the kind of value. A course is `runway`."""
+"""What a procedure step can set, with the kind of value. A course is `runway`, a load the name of a pallet."""
 
 CONTROLS: tuple[str, ...] = ("thrust", "elevator", "aileron", "rudder", "steering")
 """Controls of the CTRL super-mode; each is DIRECT (the pilot's hand) or CONTROLLER."""

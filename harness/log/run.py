@@ -15,10 +15,10 @@ _STATE_UNITS = {
     "s": "time",
     "rad": "latitude longitude roll pitch heading alpha beta greatest_bank greatest_alpha",
     "rad/s": "roll_rate pitch_rate yaw_rate propeller_speed",
-    "m": "altitude pressure_altitude height",
+    "m": "altitude pressure_altitude height centre_of_gravity",
     "m/s": "cas tas velocity_north velocity_east vertical_speed",
     "N": "thrust",
-    "kg": "mass fuel fuel_used",
+    "kg": "mass fuel fuel_used fuel_leaked dropped",
     "kg/s": "fuel_flow",
     "Pa": "pressure",
     "K": "temperature",
@@ -42,7 +42,8 @@ UNITS = {
 class Event(NamedTuple):
     """Something that happened: at `time` (s), in `phase`, and why.
 
-    `kind` is phase, checklist, procedure, mode, waypoint or failure; `name` says which one, `detail` what a step did.
+    `kind` is phase, checklist, procedure, mode, waypoint, failure or limit; `name` says which one, `detail` what a step
+    did.
     """
 
     time: float

@@ -71,6 +71,8 @@ def _flight(
         "landing_mass_kg": touchdown.mass if touchdown else None,
         "distance_km": None,
         "fuel_burned_kg": None,
+        "fuel_leaked_kg": None,
+        "dropped_kg": None,
         "mass_closure_kg": None,
     }
     if release and touchdown:
@@ -79,8 +81,10 @@ def _flight(
         )
         used = touchdown.fuel_used - release.fuel_used
         result["distance_km"] = float(end_distance - begin_distance) / 1000.0
-        result["fuel_burned_kg"] = release.fuel - touchdown.fuel
-        result["mass_closure_kg"] = release.mass - touchdown.mass - used
+        result["fuel_leaked_kg"] = leaked = touchdown.fuel_leaked - release.fuel_leaked
+        result["fuel_burned_kg"] = release.fuel - touchdown.fuel - leaked
+        result["dropped_kg"] = dropped = touchdown.dropped - release.dropped
+        result["mass_closure_kg"] = release.mass - touchdown.mass - used - leaked - dropped
     return result
 
 

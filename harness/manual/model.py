@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple, Protocol
 
 from harness.errors import InputError, did_you_mean
+from harness.loading.envelope import Envelope
 from harness.plan import PhasePlan
 from harness.units import G0, Quantity, Speed
 from harness.world.atmosphere import SEA_LEVEL_DENSITY
@@ -87,6 +88,7 @@ class FlightManual:
     gain_units: Mapping[str, str] = field(default_factory=dict)
     configurations: Mapping[str, Mapping[str, PropertySetting]] = field(default_factory=dict)
     failures: Mapping[str, PropertySetting] = field(default_factory=dict)
+    balance: Envelope | None = None
 
     def flap(self, name: str) -> FlapSetting:
         """The flap setting of that name. Raises InputError."""

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from harness import resources
 from harness.errors import InputError, InputErrors, did_you_mean
+from harness.loading.envelope import read_envelope
 from harness.manual.model import FlapSetting, FlightManual, Numbers, PropertySetting, SpeedRule
 from harness.plan_reader import Words, check_plans, read_phase
 from harness.units import Quantity, UnitError, parse, parse_any, parse_quantity, parse_speed
@@ -42,6 +43,7 @@ def read_manual(aircraft: str | Path) -> FlightManual:
         element.get("name", ""): source.read(element, "value", parse_quantity, Quantity(NAN, ""))
         for element in _entries(source, "gains")
     }
+    balance = source.one(root, "balance", needed=False)
     manual = FlightManual(
         aircraft=root.get("aircraft", ""),
         limits=_limits(source),
@@ -73,6 +75,7 @@ def read_manual(aircraft: str | Path) -> FlightManual:
             element.get("name", ""): _property_setting(source, element)
             for element in _entries(source, "failures", needed=False)
         },
+        balance=None if balance is None else read_envelope(source, balance),
     )
     source.finish()
     faults = [*_cross_references(manual, source), *check_plans(manual.phases.values(), words_of(manual))]

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from harness.errors import InputError, InputErrors, did_you_mean
 from harness.manual import FlightManual, read_manual
+from harness.mission.balance import LoadSheet
 from harness.mission.envelope import STALL_MARGIN, Envelope
 from harness.mission.model import Leg, Mission, Position
 from harness.mission.reader import read_mission
@@ -60,7 +61,10 @@ class _Checker:
 
     def faults(self) -> Iterator[InputError]:
         """Every fault; those that only follow from a wrong mass or an impossible day are left out."""
+        sheet = LoadSheet(self.mission, self.manual)
         basic = [*self._loading(), *self._environment()]
+        if not basic:
+            basic = [*sheet.faults()]
         yield from basic
         if not basic:
             yield from self._decision_speeds()
@@ -72,7 +76,10 @@ class _Checker:
         yield from self._last_waypoint()
         yield from self._ground("departure", self.departure)
         yield from self._ground("arrival", self.arrival)
-        yield from word_faults(self.mission, self.manual)
+        words = [*word_faults(self.mission, self.manual)]
+        yield from words
+        if not words and not basic:
+            yield from sheet.drop_faults()
 
     def _fault(self, path: str, what: str, remedy: str = "") -> InputError:
         file, line = self.mission.place(path)

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, NamedTuple
 
+from harness.loading.balance import Item
 from harness.navigation.database import Station
 from harness.plan import Failure, PhasePlan, Step
 from harness.units import Level, Quantity, Speed
@@ -59,12 +60,34 @@ class Leg(NamedTuple):
         return f"{self.part}/waypoint[{self.name}]"
 
 
+class Pallet(NamedTuple):
+    """A load in the hold, and the drag area of the parachute that can pull it out (m2, 0: it rolls out by itself)."""
+
+    item: Item
+    parachute: float = 0.0
+
+    @property
+    def path(self) -> str:
+        """Where it stands in the mission file."""
+        return f"loading/pallet[{self.item.name}]"
+
+
 class Loading(NamedTuple):
-    """What is on board at brake release, kg: fuel, and take-off mass or payload; the other is None."""
+    """What is on board at brake release, kg: fuel, and take-off mass or payload; the other is None.
+
+    With `passengers` or `pallets` the payload is their sum.
+    """
 
     takeoff_mass: float | None
     payload: float | None
     fuel: float
+    passengers: tuple[Item, ...] = ()
+    pallets: tuple[Pallet, ...] = ()
+
+    @property
+    def items(self) -> tuple[Item, ...]:
+        """All that has its own place."""
+        return (*self.passengers, *(pallet.item for pallet in self.pallets))
 
     def total(self, operating_empty_mass: float) -> float:
         """The take-off mass, kg."""
@@ -131,6 +154,14 @@ class Mission:
     configuration: dict[str, str] = field(default_factory=dict)
     failures: tuple[Failure, ...] = ()
     places: dict[str, tuple[str, int | None]] = field(default_factory=dict, compare=False)
+
+    @property
+    def released(self) -> tuple[str, ...]:
+        """The names of the loads that actions release, in the order of the route and then of the phases."""
+        steps = [step for leg in self.legs for step in leg.actions]
+        steps += [step for plan in self.phases.values() for step in plan.steps]
+        names = (step.action.get("to", "") for step in steps if step.action.get("set") == "release")
+        return tuple(dict.fromkeys(names))
 
     def place(self, path: str) -> tuple[str, int | None]:
         """File and line of a part such as `loading/fuel`, or of the element around it."""

@@ -8,12 +8,12 @@ from lxml import etree
 
 from harness import resources
 from harness.errors import did_you_mean
+from harness.mission.loading import read_loading
 from harness.mission.model import (
     Arrival,
     Departure,
     Environment,
     Leg,
-    Loading,
     Mission,
     Position,
     Stand,
@@ -87,6 +87,7 @@ class _Reader:
         configuration = self.source.one(root, "configuration", needed=False)
         route = self.source.one(root, "route")
         arrival = self.source.one(root, "arrival")
+        loading = self.source.one(root, "loading")
         phases = list(children(root, "phase"))
         self.source.distinct(phases, "name")
         return Mission(
@@ -94,7 +95,7 @@ class _Reader:
             description=" ".join((description.text or "").split()) if description is not None else "",
             aircraft=self._aircraft(aircraft),
             speeds=self._speeds(aircraft),
-            loading=self._loading(self.source.one(root, "loading")),
+            loading=read_loading(self.source, loading, None if aircraft is None else aircraft.get("name")),
             environment=self._environment(environment),
             departure=self._departure(self.source.one(root, "departure")),
             legs=self._legs(route, arrival),
@@ -144,21 +145,6 @@ class _Reader:
         elements = [] if element is None else list(children(element, "failure"))
         self.source.distinct(elements, "name")
         return tuple(read_failure(self.source, failure) for failure in elements)
-
-    def _loading(self, element: Element | None) -> Loading:
-        if element is None:
-            return Loading(None, None, NAN)
-        if (element.get("take-off-mass") is None) == (element.get("payload") is None):
-            self.source.fault(
-                "<loading> needs the fuel and either the take-off mass or the payload",
-                element,
-                remedy='write <loading take-off-mass="100 t" fuel="12 t"/>, or payload= for take-off-mass=',
-            )
-        return Loading(
-            self.source.quantity(element, "take-off-mass", "mass") if element.get("take-off-mass") else None,
-            self.source.quantity(element, "payload", "mass") if element.get("payload") else None,
-            self.source.quantity(element, "fuel", "mass"),
-        )
 
     def _environment(self, element: Element | None) -> Environment:
         day = Environment()

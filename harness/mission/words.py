@@ -6,7 +6,7 @@ from harness.errors import InputError, did_you_mean
 from harness.manual import FlightManual, words_of
 from harness.mission.model import Mission
 from harness.plan import Condition, PhasePlan, Step
-from harness.plan_reader import check_condition, check_plans, check_step
+from harness.plan_reader import Words, check_condition, check_plans, check_step
 from harness.vocabulary import PHASES
 
 
@@ -45,7 +45,7 @@ def _configuration(mission: Mission, manual: FlightManual) -> Iterator[InputErro
 
 
 def _failures(mission: Mission, manual: FlightManual) -> Iterator[InputError]:
-    words = words_of(manual.with_mission(mission))
+    words = _words(manual.with_mission(mission), mission)
     for failure in mission.failures:
         known: dict[str, object] = {**manual.failures}
         unknown = [("failure", failure.name, known)] if failure.name not in known else []
@@ -64,7 +64,7 @@ def _failures(mission: Mission, manual: FlightManual) -> Iterator[InputError]:
 
 def _plans(mission: Mission, manual: FlightManual) -> Iterator[InputError]:
     flown = manual.with_mission(mission)
-    words = words_of(flown)
+    words = _words(flown, mission)
     yield from check_plans(mission.phases.values(), words)
     for leg in mission.legs:
         for action in leg.actions:
@@ -93,3 +93,8 @@ def _removals(plan: PhasePlan, manual: FlightManual) -> Iterator[InputError]:
                 what = f'the manual has no "{entry.name}" in {plan.name} to remove'
                 remedy = did_you_mean(entry.name, known)
                 yield InputError(what, file=entry.file, line=entry.line, remedy=remedy)
+
+
+def _words(manual: FlightManual, mission: Mission) -> Words:
+    """The names of the manual, and of the loads that may be released."""
+    return words_of(manual)._replace(loads=frozenset(pallet.item.name for pallet in mission.loading.pallets))

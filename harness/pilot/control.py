@@ -43,8 +43,18 @@ class ControlSystem:
     The slow loops turn in `turn_outer_loops`; the flight path is flown by `vertical.fly` at every pilot step.
     """
 
-    def __init__(self, manual: FlightManual, route: NavigationComputer, runway: Runway, step: float) -> None:
-        """`runway` is the one in use at the beginning; `step` the time between two pilot steps, s."""
+    def __init__(
+        self,
+        manual: FlightManual,
+        route: NavigationComputer,
+        runway: Runway,
+        step: float,
+        loads: Sequence[str] = (),
+    ) -> None:
+        """`runway` is the one in use at the beginning; `step` the time between two pilot steps, s.
+
+        `loads` are the names of what can be released, in the order of their numbers, from 1.
+        """
         gains = manual.gains
         self.manual = manual
         self.route = route
@@ -57,6 +67,7 @@ class ControlSystem:
         self.taxi_distance = inf  # to the end of the taxi path, m
         self._steering = GroundSteering(gains)
         self._settings = Commands()
+        self._loads = {name: float(number) for number, name in enumerate(loads, 1)}
         self._taxi: TaxiPath | None = None
         self._taxiing = False
         self._taxi_brake = 0.0
@@ -78,6 +89,8 @@ class ControlSystem:
             self._settings = self._settings._replace(flap=self.manual.flap(to).position)
         elif name == "gear":
             self._settings = self._settings._replace(gear=float(to == "down"))
+        elif name == "release":
+            self._settings = self._settings._replace(release=self._loads[to])
         elif name == "course":
             self.horizontal.track = self.runway.heading
         else:
@@ -215,6 +228,9 @@ class ControlSystem:
             settings.gear,
             settings.speedbrake,
             settings.spoiler,
+            settings.crossfeed,
+            settings.ramp,
+            settings.release,
         )
 
     def _steer(self, state: State, dt: float) -> None:

@@ -10,6 +10,7 @@ from harness.manual import FlightManual
 from harness.mission.model import Leg, Mission
 from harness.navigation.database import Ils, Runway
 from harness.numerics import wrap
+from harness.pilot.balance import BalanceWatch
 from harness.pilot.checklist import Item, OpenChecklist, item, prepared
 from harness.pilot.control import ControlSystem
 from harness.pilot.machine import END, START, PhaseGraph
@@ -46,7 +47,7 @@ class Pilot:
             mission.legs, departure, arrival, mission.environment.qnh, manual.gains["bank-limit"]
         )
         self.route.on_passage = self._passed
-        self.control = ControlSystem(manual, self.route, departure, step)
+        self.control = ControlSystem(manual, self.route, departure, step, mission.released)
         self._fly = self.control.vertical.fly
         self.phase = START
         self.phase_begin = 0.0
@@ -55,6 +56,7 @@ class Pilot:
         self.level_error = 0.0  # height of the wanted level above the aircraft, m
         self.modes: Mapping[str, str] = self.control.modes
         self.listeners: list[Callable[[Event], None]] = []
+        self._balance = BalanceWatch(manual.balance)
         self._graph = PhaseGraph()
         self._arrival: Runway | None = arrival.runway  # until it is in use
         self._pending: list[_ReadyStep] = []
@@ -121,6 +123,8 @@ class Pilot:
                 self._enter(START, state, "start of the mission")
             self._navigate(state)
             self.level_error = self.route.level - state.pressure_altitude
+            if balance := self._balance.change(state):
+                self._note("limit", "centre of gravity", balance)
         for checklist in self._checklists:
             if checklist.complete(state):
                 self._proceed(checklist, state)

@@ -11,12 +11,12 @@ from typing import NamedTuple
 import jsbsim
 
 from harness.errors import InputError, NumericalError
+from harness.loading.balance import Item, combined, four_points
 from harness.log import Inputs
 from harness.log.inputs import AT_START, BEFORE, Write
 from harness.plant.impact import IMPACT_SINK, impact
 from harness.plant.messages import Messages
 from harness.plant.properties import COMMANDS, PSF, STATE, Binding
-from harness.plant.tanks import Tank, filled
 from harness.state import (
     FAST,
     FIELDS,
@@ -43,7 +43,8 @@ TERRAIN_HEIGHT = 60.0  # m; nearer the ground its elevation stays what it was
 MOST_CONTACTS = 32  # gear units and structure contacts an aircraft may have
 STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground trim finds the true one
 GROUND_TRIM = 2.0  # JSBSim's trim mode for an aircraft on its wheels
-TANKS = 7
+FIXED, MOVABLE = 1, 5  # point masses: the first of the four that stay, and the first of those that leave
+INCH = FT / 12
 BELOW_GROUND = -2.0  # m: no strut is that short
 
 Reading = tuple[str, Callable[[], float], float]
@@ -60,10 +61,15 @@ class Placement(NamedTuple):
 
 
 class Loads(NamedTuple):
-    """Masses put on board, kg."""
+    """What is put on board: fuel in each tank (kg), a payload of which only the mass is known, and things with a place.
 
-    payload: float
-    fuel: float
+    Those in `released` can leave in flight, each with the drag area of its extraction parachute, m2.
+    """
+
+    fuel: Sequence[float]
+    payload: float = 0.0
+    fixed: Sequence[Item] = ()
+    released: Sequence[tuple[Item, float]] = ()
 
 
 class Air(NamedTuple):
@@ -241,12 +247,19 @@ class JSBSimPlant:
 
     def _load(self, loads: Loads) -> None:
         self._put("inertia/pointmass-weight-lbs[0]", loads.payload / LB)
-        tanks = [
-            Tank(self._read(f"fuel/tank-capacity-kg[{i}]"), self._read(f"fuel/tank-fill-order[{i}]"))
-            for i in range(TANKS)
-        ]
-        for i, contents in enumerate(filled(tanks, loads.fuel)):
+        lump = combined(loads.fixed)
+        for i, place in enumerate(four_points(lump) if lump.mass else ()):
+            self._put_mass(FIXED + i, lump.mass / 4, place)
+        for i, (item, parachute) in enumerate(loads.released):
+            self._put_mass(MOVABLE + i, item.mass, (item.x, item.y, item.z))
+            self._put(f"payload/parachute-m2[{i}]", parachute)
+        for i, contents in enumerate(loads.fuel):
             self._put(f"propulsion/tank[{i}]/contents-lbs", contents / LB)
+
+    def _put_mass(self, number: int, mass: float, place: tuple[float, float, float]) -> None:
+        self._put(f"inertia/pointmass-weight-lbs[{number}]", mass / LB)
+        for axis, value in zip("XYZ", place, strict=True):
+            self._put(f"inertia/pointmass-location-{axis}-inches[{number}]", value / INCH)
 
     def _write(self, commands: Commands) -> None:
         written = self._written

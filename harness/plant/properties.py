@@ -54,6 +54,9 @@ _STATE = {
     "propeller_speed": Binding("propulsion/slowest-propeller-rpm", 2.0 * pi / 60.0),
     "pressure": Binding("atmosphere/P-psf", PSF),
     "temperature": Binding("atmosphere/T-R", KELVIN),
+    "centre_of_gravity": Binding("inertia/cg-x-in", FT / 12),
+    "dropped": Binding("payload/dropped-kg"),
+    "fuel_leaked": Binding("fuel/leaked-kg"),
     "greatest_load_factor": Binding("extreme/nz-max"),
     "least_load_factor": Binding("extreme/nz-min"),
     "greatest_bank": Binding("extreme/bank-max-rad"),
@@ -76,11 +79,14 @@ _COMMANDS = {
     "gear": "gear/gear-cmd-norm",
     "speedbrake": "fcs/speedbrake-cmd-norm",
     "spoiler": "fcs/spoiler-cmd-norm",
+    "ramp": "payload/ramp-cmd-norm",
+    "release": "payload/release",
 }
 BRAKES = ("fcs/left-brake-cmd-norm", "fcs/right-brake-cmd-norm")
+CROSSFEED: tuple[str, ...] = tuple(f"fuel/crossfeed-open[{engine}]" for engine in range(4))
 THROTTLES: tuple[str, ...] = tuple(f"fcs/throttle-cmd-norm[{engine}]" for engine in range(4))
+_SEVERAL = {"throttle": THROTTLES, "brake": BRAKES, "crossfeed": CROSSFEED}
 COMMANDS: dict[str, tuple[str, ...]] = {
-    field: THROTTLES if field == "throttle" else BRAKES if field == "brake" else (_COMMANDS[field],)
-    for field in Commands._fields
+    field: _SEVERAL.get(field) or (_COMMANDS[field],) for field in Commands._fields
 }
 """The properties that each command is written to."""
