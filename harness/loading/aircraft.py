@@ -6,6 +6,7 @@ the aircraft's main file names them. Hold, seats and the fuel-management table a
 
 from collections.abc import Mapping
 from functools import lru_cache
+from pathlib import Path
 from typing import NamedTuple
 
 from harness import resources
@@ -74,12 +75,12 @@ class Stowage(NamedTuple):
 
 
 @lru_cache
-def read_stowage(aircraft: str) -> Stowage:
-    """The stowage of an aircraft given by name. Raises InputErrors naming file and line."""
-    main = resources.aircraft()[aircraft]
+def read_stowage(aircraft: str | Path) -> Stowage:
+    """The stowage of an aircraft given by name, or its main file as a Path. Raises InputErrors naming file and line."""
+    main = aircraft if isinstance(aircraft, Path) else resources.aircraft()[aircraft]
     source = Source(main.with_name("loading.xml"), SCHEMA, "loading-data")
     source.validate()
-    balance = _part(aircraft, "mass_balance")
+    balance = _part(main, "mass_balance")
     bulk = _point_mass(balance)
     hold, pallet, seats, fuel = (source.one(source.root, tag) for tag in ("hold", "pallet", "seats", "fuel"))
     source.finish()
@@ -87,7 +88,7 @@ def read_stowage(aircraft: str) -> Stowage:
     assert pallet is not None
     assert seats is not None
     assert fuel is not None
-    tanks = _tanks(_part(aircraft, "propulsion"))
+    tanks = _tanks(_part(main, "propulsion"))
     floor = source.quantity(hold, "floor", "length")
     front, rear, ramp_end = (source.quantity(hold, name, "length") for name in ("front", "rear", "ramp-end"))
     length, radius, height = (
@@ -108,9 +109,8 @@ def read_stowage(aircraft: str) -> Stowage:
     return stowage
 
 
-def _part(aircraft: str, tag: str) -> Element:
+def _part(main: Path, tag: str) -> Element:
     """A part of the JSBSim aircraft, from its main file or the file that this names."""
-    main = resources.aircraft()[aircraft]
     found = Source(main, SCHEMA, "fdm_config").root.find(tag)
     if found is None:
         raise InputError(f"has no <{tag}>", file=main)

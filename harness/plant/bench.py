@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.errors import InputError
-from harness.plant.jsbsim_plant import INTEGRATORS, STANDING_HEIGHT, TANKS, load
+from harness.loading.aircraft import read_stowage
+from harness.plant.jsbsim_plant import INTEGRATORS, STANDING_HEIGHT, load
 from harness.plant.properties import STATE, THROTTLES, Binding
-from harness.plant.tanks import Tank, filled
 from harness.state import FIELDS
 from harness.units import FT, LB
 from harness.world.atmosphere import GRAVITY, geometric
@@ -75,6 +75,7 @@ class Bench:
     def __init__(self, root: Path, aircraft: str, *, rate: int = 120) -> None:
         self.rate = rate
         self._fdm = load(root, aircraft, rate)
+        self._stowage = read_stowage(root / "aircraft" / aircraft / f"{aircraft}.xml")
         self._manager = self._fdm.get_property_manager()
         self._getters: dict[str, Callable[[], float]] = {}
         self._time = 0.0
@@ -129,12 +130,8 @@ class Bench:
         empty = self.get("inertia/empty-weight-lbs") * LB
         if fuel is None:
             fuel = min(max(USUAL_FUEL, mass - empty - PAYLOAD), mass - empty)
-        tanks = [
-            Tank(self.get(f"fuel/tank-capacity-kg[{i}]"), self.get(f"fuel/tank-fill-order[{i}]"))
-            for i in range(TANKS)
-        ]
-        for i, contents in enumerate(filled(tanks, fuel)):
-            self.put(f"propulsion/tank[{i}]/contents-lbs", contents / LB)
+        for i, tank in enumerate(self._stowage.fuel(fuel)):
+            self.put(f"propulsion/tank[{i}]/contents-lbs", tank.mass / LB)
         self.put("inertia/pointmass-weight-lbs[0]", (mass - empty - fuel) / LB)
 
     def place(self, altitude: float, attitude: Attitude, heading: float = 0.0) -> None:
