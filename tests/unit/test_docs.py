@@ -40,13 +40,16 @@ def test_the_graph_of_the_machine_has_every_phase_and_edge(generate: ModuleType)
 
 
 def test_the_examples_of_the_mission_file_are_fit_to_fly(repository: Path, tmp_path: Path) -> None:
-    example, variant = EXAMPLE.findall((repository / "docs" / "mission-file.md").read_text("utf-8"))
+    example, loading, variant = EXAMPLE.findall((repository / "docs" / "mission-file.md").read_text("utf-8"))
     (tmp_path / "to-nuremberg.xml").write_text(example, "utf-8")
     (tmp_path / "to-nuremberg-heavy.xml").write_text(variant, "utf-8")
     mission = check_file(tmp_path / "to-nuremberg.xml")
     assert {leg.mode for leg in mission.legs} == {"homing", "tracking", "direct"}
     assert [failure.name for failure in mission.failures] == ["engine 2"]
     assert check_file(tmp_path / "to-nuremberg-heavy.xml").loading.takeoff_mass == 110_000.0
+    listed = example.replace('<loading take-off-mass="95 t" fuel="8 t"/>', loading.strip())
+    (tmp_path / "listed.xml").write_text(listed, "utf-8")
+    assert len(check_file(tmp_path / "listed.xml").loading.items) == 12
     override = "phase[DEP]/checklist[ENR.CLB]/item[clear of the town]/at-least=2500 ft"
     assert (
         check_file(tmp_path / "to-nuremberg.xml", [override]).phases["DEP"].checklists[0].items[0].required
