@@ -5,6 +5,8 @@ import itertools
 import pytest
 from test_propulsion import Stand
 
+from harness.loading.aircraft import read_stowage
+
 KG = 1.0 / 0.45359237  # pounds
 CAPACITY = (11434.310, 13457.255, 13384.250, 3032.455, 2269.435, 2269.435, 3032.455)
 FULL, HALF, LOW, DRY = 1.0, 0.5, 0.004, 0.0
@@ -106,6 +108,18 @@ def test_tanks_empty_centre_first_then_wing_then_feed() -> None:
         assert min(left[3:]) > 0.99 * 2269.0  # the feed tanks stay full meanwhile
         assert second < 200
     assert gone["centre"] < gone["inner"]
+
+
+def test_burning_leaves_what_filling_less_would_have_put_in() -> None:
+    """The fuel-management table is the order of use, backwards."""
+    stowage = read_stowage("gta")
+    whole = sum(CAPACITY) - CAPACITY[0] + 60.0
+    engines = stand(*(item.mass / most for item, most in zip(stowage.fuel(whole), CAPACITY, strict=True)))
+    engines.run(160.0)
+    left = contents(engines)
+    assert whole - sum(left) > 120.0
+    filled = [item.mass for item in stowage.fuel(sum(left))]
+    assert left == pytest.approx(filled, abs=20.0)  # a tank gives what the one before it lacks, 5 to 10 kg
 
 
 def test_a_failed_pump_starves_its_engine_aloft_and_only_it() -> None:

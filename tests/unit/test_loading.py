@@ -13,6 +13,8 @@ from harness.loading.tanks import filled
 from harness.manual import read_manual
 from harness.mission.balance import LoadSheet
 from harness.mission.check import check_file
+from harness.pilot.balance import BalanceWatch
+from harness.state import FIELDS, State
 
 BULK = 'take-off-mass="95 t" fuel="8 t"/>'
 
@@ -139,6 +141,13 @@ PALLET = '<loading fuel="8 t"><pallet name="a" mass="{}" position="{}"/>{}</load
         (PALLET.format("8 t", "19 m", '<pallet name="b" mass="1 t" position="20 m"/>'), "overlap by 1.74 m"),
         (PALLET.format("14 t", "31 m", ""), "aft of the limit of 40.0 % MAC at"),
         (PALLET.format("14 t", "11.5 m", ""), "forward of the limit of"),
+        (
+            (
+                '<loading fuel="8 t" passengers="116"><pallet name="a" mass="15 t" position="17 m"/>'
+                '<pallet name="b" mass="15 t" position="21 m"/></loading>'
+            ),
+            "the mass without fuel, 121.4 t, is above the zero-fuel limit of 115.6 t",
+        ),
         ('<loading fuel="60 t" passengers="2"/>', "60.0 t of fuel is more than the tanks hold"),
         ('<loading fuel="8 t" passengers="117"/>', "there are 116 seats"),
         ('<loading fuel="8 t" passengers="1.5"/>', "no number of passengers"),
@@ -154,6 +163,23 @@ def test_a_loading_that_cannot_be_is_refused_with_its_line(
     tmp_path: Path, repository: Path, loading: str, said: str
 ) -> None:
     assert said in refused(mission(tmp_path, repository, loading))
+
+
+def test_a_balance_that_leaves_its_limits_is_told_once_and_once_when_it_is_back() -> None:
+    watch = BalanceWatch(Envelope(17.0, 5.0, 0.15, (78e3, 141e3), (0.2, 0.2), (0.4, 0.4)))
+    told = []
+    for x in (18.5, 18.9, 19.1, 19.2, 19.3, 18.99, 18.8, 17.9):
+        state = State(**dict.fromkeys(FIELDS, 0.0))
+        state.centre_of_gravity, state.mass = x, 100e3
+        told.append(watch.change(state))
+    assert told == [
+        *("", ""),
+        "42.0 % MAC, outside 20.0 % MAC to 40.0 % MAC",
+        *("", ""),
+        "39.8 % MAC, inside 20.0 % MAC to 40.0 % MAC",
+        "",
+        "18.0 % MAC, outside 20.0 % MAC to 40.0 % MAC",
+    ]
 
 
 def test_heavy_seats_on_one_side_are_beyond_the_lateral_limit() -> None:
