@@ -1,8 +1,8 @@
 """Thrust of the flown engines against drag of the collected polar: cruise, climb and ceilings of the validation points.
 
 Thrust, power and fuel come from the aircraft in JSBSim with its motion frozen; the drag is not the aircraft's own but
-C_D = 0.0211 + dC_D(M) + C_L^2 / (pi 8.1 0.80) of facts.csv, computed here. V24 is calibrated (the power rating), V16 and
-V18 partly (the fuel law); the rest was fitted to nothing here.
+C_D = 0.0211 + dC_D(M) + C_L^2 / (pi 8.1 0.80) of facts.csv, computed here. V24 is calibrated (the power rating), V16
+and V18 partly (the fuel law); the rest was fitted to nothing here.
 """
 
 import math
