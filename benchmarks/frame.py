@@ -50,7 +50,7 @@ def in_flight(root: str, aircraft: str) -> jsbsim.FGFDMExec:
 
 def main(aircraft: str) -> None:
     """Step both in turns and print the result."""
-    pair = [in_flight(str(ROOT), aircraft), in_flight(jsbsim.get_default_root_dir(), "C130")]
+    pair = [in_flight(str(ROOT), aircraft), in_flight(str(Path(jsbsim.__file__).parent), "C130")]
     times: tuple[list[float], list[float]] = ([], [])
     for _ in range(BLOCKS):
         for fdm, spent in zip(pair, times, strict=True):

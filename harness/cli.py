@@ -109,12 +109,60 @@ def parser() -> Parser:
     add_json(qualifying)
     qualifying.set_defaults(run=qualify)
 
+    add_replay(commands)
     listing = commands.add_parser(
         "list", help="missions, aircraft and scripts", description="What can be named."
     )
     add_json(listing)
     listing.set_defaults(run=show_list)
     return top
+
+
+def add_replay(commands: "argparse._SubParsersAction[Parser]") -> None:
+    """The commands for JSBSim scripts."""
+    replaying = commands.add_parser(
+        "replay",
+        help="run a JSBSim script and keep the run in a folder",
+        description="Run any JSBSim script, as the `jsbsim` command does, and keep the run in a folder.",
+    )
+    replaying.add_argument("script", metavar="SCRIPT", help="a name from `harness list`, or a script file")
+    replaying.add_argument(
+        "--root", metavar="DIR", help="the JSBSim root (default: the one the script is in)"
+    )
+    replaying.add_argument(
+        "--rate", metavar="HZ", type=float, help="frames a second (default: the script's own)"
+    )
+    replaying.add_argument("--end", metavar="SECONDS", type=float, help="stop after this simulated time")
+    replaying.add_argument(
+        "--set",
+        dest="settings",
+        metavar="PROPERTY=VALUE",
+        action="append",
+        default=[],
+        help="set a property before the start, in JSBSim's unit; may be repeated",
+    )
+    replaying.add_argument(
+        "--limit", metavar="SECONDS", type=float, default=600.0, help="computing time (default: %(default)s)"
+    )
+    replaying.add_argument(
+        "--sockets", action="store_true", help="open the sockets that aircraft and script name"
+    )
+    replaying.add_argument("--compare", metavar="RUN", help="hold it against the run it was exported from")
+    replaying.add_argument("--out", metavar="DIR", default=DEFAULT_OUT, help="folder for the run's folder")
+    add_json(replaying)
+    replaying.set_defaults(run=replay)
+
+    exporting = commands.add_parser(
+        "export",
+        help="write a run as a JSBSim script",
+        description="Write a run of `harness fly` as one JSBSim script that stock JSBSim replays to the last bit.",
+    )
+    exporting.add_argument("folder", metavar="RUN", help="the folder of a run")
+    exporting.add_argument(
+        "--out", metavar="FILE", help="the script's file (default: replay.xml in the run's folder)"
+    )
+    add_json(exporting)
+    exporting.set_defaults(run=export)
 
 
 def add_mission(command: argparse.ArgumentParser) -> None:
@@ -223,6 +271,53 @@ def qualify(chosen: argparse.Namespace) -> int:
         if page is not None:
             print(f"page: {page}")
     return 0 if all(verdict.inside for verdict in verdicts) else OUTSIDE
+def replay(chosen: argparse.Namespace) -> int:
+    """`harness replay`."""
+    from harness.replay.command import choices_of
+    from harness.replay.player import replay as play
+
+    run, stopped, comparison = play(chosen.script, chosen.out, choices_of(chosen), chosen.compare)
+    if stopped is not None:
+        say(f"harness: {stopped}")
+        say(f"    what was flown is in {run.folder}")
+    result = {**run.summary, "folder": str(run.folder)} | (comparison._asdict() if comparison else {})
+    if chosen.json:
+        print_json(result)
+    elif stopped is None:
+        print(
+            f"{run.summary['script']}: {run.summary['simulated_time_s']:.1f} s in {run.summary['frames']} frames, "
+            f"{len(run.events)} events; kept in {run.folder}"
+        )
+        if comparison:
+            verdict = "identical" if comparison.identical else "NOT identical"
+            print(
+                f"  {verdict} to {chosen.compare} at {comparison.frames} frames: at most "
+                f"{comparison.max_position_m:.3g} m and {comparison.max_attitude_deg:.3g} deg apart"
+            )
+    if stopped is not None:
+        return stopped.exit_code
+    return 0 if comparison is None or comparison.identical else OUTSIDE
+
+
+def export(chosen: argparse.Namespace) -> int:
+    """`harness export`."""
+    from pathlib import Path
+
+    from harness.log import read_run
+    from harness.log.inputs import read_inputs
+    from harness.replay.export import script_of, write_script
+
+    run = read_run(chosen.folder)
+    file = Path(chosen.out) if chosen.out else Path(chosen.folder) / "replay.xml"
+    text = script_of(run, read_inputs(Path(chosen.folder)))
+    write_script(text, file)
+    if chosen.json:
+        print_json({"file": str(file), "bytes": len(text)})
+    else:
+        print(
+            f"{file}: {len(text) / 1e6:.2f} MB; replay it with: harness replay {file} --compare {chosen.folder}"
+        )
+    return 0
 
 
 def show_list(chosen: argparse.Namespace) -> int:

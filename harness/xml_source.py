@@ -58,7 +58,7 @@ class Source:
         """Read and parse `path`, a document of `schema` with one of these roots. Raises InputError."""
         self.path = path
         self.schema, self.words = _schema(schema)
-        self.root = _parsed(path)
+        self.root = read_document(path)
         self.faults: list[InputError] = []
         self.origins: dict[tuple[Element, str], tuple[str, int | None]] = {}
         if self.root.tag not in roots:
@@ -181,8 +181,8 @@ def shorten(text: object, most: int = 60) -> str:
     return plain if len(plain) <= most else plain[: most - 3] + "..."
 
 
-def read_bytes(path: Path) -> bytes:
-    """The content of a regular file of acceptable size. Raises InputError."""
+def read_bytes(path: Path, largest: int = LARGEST_FILE) -> bytes:
+    """The content of a regular file of at most `largest` bytes. Raises InputError."""
     try:
         if path.is_dir():
             raise InputError("is a folder, not a file", file=path)
@@ -192,29 +192,30 @@ def read_bytes(path: Path) -> bytes:
         if not path.is_file():  # a pipe or a device could block for ever
             raise InputError("is not a regular file", file=path)
         with path.open("rb") as stream:
-            data = stream.read(LARGEST_FILE + 1)
+            data = stream.read(largest + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(f"cannot be read: {reason}", file=shorten(path, 200)) from None
     if not data:
         raise InputError("is empty", file=path, line=1, remedy="an XML document is wanted")
-    if len(data) > LARGEST_FILE:
-        remedy = "a mission is a few kilobytes"
-        raise InputError(f"is larger than {LARGEST_FILE:,} bytes", file=path, line=1, remedy=remedy)
+    if len(data) > largest:
+        remedy = "a mission is a few kilobytes" if largest == LARGEST_FILE else ""
+        raise InputError(f"is larger than {largest:,} bytes", file=path, line=1, remedy=remedy)
     return data
 
 
-def _parsed(path: Path) -> Element:
+def read_document(path: Path, *, largest: int = LARGEST_FILE, most_elements: int = MOST_ELEMENTS) -> Element:
+    """The root of a document of at most these sizes. Raises InputError."""
     parser = etree.XMLParser(
         resolve_entities=False,
         no_network=True,
         load_dtd=False,
         dtd_validation=False,
-        huge_tree=False,
+        huge_tree=largest > LARGEST_FILE,
         remove_pis=True,
     )
     try:
-        root = etree.fromstring(read_bytes(path), parser)
+        root = etree.fromstring(read_bytes(path, largest), parser)
     except etree.XMLSyntaxError as error:
         # A column is "line 3, column 7" at the end of the message: the line is told before it.
         what = re.sub(r", line \d+, column (\d+)$", r", column \1", str(error.msg))
@@ -234,9 +235,19 @@ def _parsed(path: Path) -> Element:
             line=1,
             remedy="delete it; the files of harness need none",
         )
-    if sum(1 for _ in root.iter()) > MOST_ELEMENTS:
-        raise InputError(f"has more than {MOST_ELEMENTS:,} elements", file=path, line=1)
+    if sum(1 for _ in root.iter()) > most_elements:
+        raise InputError(f"has more than {most_elements:,} elements", file=path, line=1)
     return root
+
+
+def line_of(element: Element) -> int:
+    """The line of an element in its file."""
+    return cast(int | None, element.sourceline) or 1
+
+
+def write_document(root: Element, path: Path) -> None:
+    """Write a document. Raises OSError."""
+    etree.ElementTree(root).write(str(path), encoding="utf-8", xml_declaration=True)
 
 
 @lru_cache

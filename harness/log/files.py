@@ -125,7 +125,8 @@ def write_run(run: Run, folder: Path) -> None:
         )
         summary = json.dumps(run.summary, indent=2, allow_nan=False, ensure_ascii=False)
         (folder / "summary.json").write_text(summary + "\n", "utf-8")
-        (folder / "mission.xml").write_text(run.mission_text, "utf-8")
+        if run.mission_text:
+            (folder / "mission.xml").write_text(run.mission_text, "utf-8")
         if run.inputs:
             write_inputs(run.inputs, folder)
 
@@ -136,6 +137,7 @@ def read_run(folder: str | PathLike[str]) -> Run:
     Raises InputError when it is not the folder of a run.
     """
     path = Path(folder)
+    mission = path / "mission.xml"  # a script that was replayed has none
     try:
         return Run(
             history=_read_history(path / "history.parquet"),
@@ -153,7 +155,7 @@ def read_run(folder: str | PathLike[str]) -> Run:
                 for row in _read_table(path / "waypoints.csv")
             ),
             summary=json.loads((path / "summary.json").read_text("utf-8")),
-            mission_text=(path / "mission.xml").read_text("utf-8"),
+            mission_text=mission.read_text("utf-8") if mission.exists() else "",
             folder=path,
         )
     except (OSError, ValueError, KeyError) as error:
