@@ -271,6 +271,8 @@ def qualify(chosen: argparse.Namespace) -> int:
         if page is not None:
             print(f"page: {page}")
     return 0 if all(verdict.inside for verdict in verdicts) else OUTSIDE
+
+
 def replay(chosen: argparse.Namespace) -> int:
     """`harness replay`."""
     from harness.replay.command import choices_of

@@ -58,10 +58,11 @@ def script_profile(run: Run) -> Figure:
 
 
 def _drawn(history: History, column: str) -> np.ndarray:
-    """The values of a column; incidence only where there is enough wind to have one."""
+    """The finite values of a column; incidence only where there is enough wind to have one."""
+    shown = np.isfinite(history[column])
     if column == "alpha":
-        return np.where(history["tas"] > BREEZE, history[column], np.nan)
-    return history[column]
+        shown &= history["tas"] > BREEZE
+    return np.where(shown, history[column], np.nan)
 
 
 def _name_events(axes: Axes, run: Run) -> None:
@@ -104,12 +105,9 @@ def ground_track(run: Run) -> Figure:
 
 
 def _offsets(history: History) -> tuple[np.ndarray, np.ndarray]:
+    known = np.isfinite(history["latitude"] + history["longitude"])
+    track = zip(history["latitude"][known].tolist(), history["longitude"][known].tolist(), strict=True)
     frame = LocalFrame(float(history["latitude"][0]), float(history["longitude"][0]))
-    points = [
-        frame.point(latitude, longitude)
-        for latitude, longitude in zip(
-            history["latitude"].tolist(), history["longitude"].tolist(), strict=True
-        )
-    ]
+    points = [frame.point(latitude, longitude) for latitude, longitude in track]
     north, east = np.array(points).T[:2]
     return east, north

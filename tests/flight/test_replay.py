@@ -1,0 +1,161 @@
+"""JSBSim scripts replayed: ours and others', what they may not do, and what becomes of those that fail."""
+
+import json
+from pathlib import Path
+
+import jsbsim
+import numpy as np
+import pytest
+
+from harness.cli import main
+from harness.errors import FlightError, InputError
+from harness.log import read_run
+from harness.replay.player import Choices, replay
+
+SHIPPED = Path(jsbsim.__file__).parent
+
+SCRIPT = """<?xml version="1.0"?>
+<runscript name="test">
+  <use aircraft="gta" initialize="parked"/>
+  <run start="0" end="1.0" dt="0.005">
+    {run}
+    <event name="flaps"><condition> simulation/sim-time-sec ge 0.5 </condition>
+      <set name="fcs/flap-cmd-norm" value="1"/><notify><property>fcs/flap-cmd-norm</property></notify></event>
+  </run>
+</runscript>
+"""
+
+
+@pytest.fixture
+def script(tmp_path: Path) -> Path:
+    file = tmp_path / "test.xml"
+    file.write_text(SCRIPT.format(run=""), "utf-8")
+    return file
+
+
+def test_a_script_is_replayed_at_its_own_step_into_a_run(script: Path, tmp_path: Path) -> None:
+    run, stopped, _ = replay(str(script), tmp_path / "runs", Choices())
+    assert stopped is None
+    assert run.summary["step_s"] == 0.005
+    assert run.summary["frames"] == 201  # JSBSim goes one frame past the end
+    assert [(event.time, event.name, event.detail) for event in run.events] == [
+        (0.5, "flaps", "fcs/flap-cmd-norm = 1")
+    ]
+    assert np.all(np.diff(run.history["time"]) > 0)
+    assert run.history["command_flap"][-1] == 1.0
+    assert run.folder is not None
+    kept = read_run(run.folder)
+    assert kept.summary == json.loads(json.dumps(run.summary))
+    assert {file.name for file in run.folder.iterdir()} >= {
+        "history.parquet",
+        "profile.png",
+        "script.xml",
+        "track.png",
+    }
+
+
+def test_rate_end_and_settings_are_obeyed(script: Path, tmp_path: Path) -> None:
+    choices = Choices(rate=100.0, end=0.2, settings=(("fcs/flap-cmd-norm", 0.25),))
+    run, _, _ = replay(str(script), tmp_path / "runs", choices)
+    assert run.summary["step_s"] == 0.01
+    assert run.summary["frames"] in (20, 21)  # the sum of 20 steps may be a hair above 0.2
+    assert run.history["command_flap"][-1] == 0.25
+
+
+def test_outputs_stay_in_the_run_and_sockets_stay_shut(tmp_path: Path) -> None:
+    outside = tmp_path / "outside.csv"
+    outputs = (
+        f'</run><output name="{outside}" type="CSV" rate="10"><property>fcs/flap-cmd-norm</property></output>'
+        '<output name="localhost" type="SOCKET" port="41234" protocol="TCP" rate="10"/><input port="41235"/><run>'
+    )
+    file = tmp_path / "talks.xml"
+    file.write_text(SCRIPT.format(run="").replace("</run>", outputs.removesuffix("<run>"), 1), "utf-8")
+    run, _, _ = replay(str(file), tmp_path / "runs", Choices())
+    assert not outside.exists()
+    assert run.folder is not None
+    assert (run.folder / "outside.csv").stat().st_size > 0
+    staged = (run.folder / "jsbsim.log").read_text("utf-8") if (run.folder / "jsbsim.log").exists() else ""
+    assert "41234" not in staged
+
+
+def test_a_shipped_script_ends_as_with_the_stock_program(tmp_path: Path) -> None:
+    file = SHIPPED / "scripts" / "c1721.xml"
+    run, stopped, _ = replay(str(file), tmp_path, Choices(end=5.0))
+    assert stopped is None
+    fdm = jsbsim.FGFDMExec(str(SHIPPED))
+    fdm.set_debug_level(0)
+    fdm.set_output_path(str(tmp_path))
+    assert fdm.load_script("scripts/c1721.xml")
+    fdm.run_ic()
+    while fdm.run() and fdm.get_sim_time() <= 5.0:
+        pass
+    assert run.summary["end_state"] == {name: fdm[name] for name in run.summary["end_state"]}
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (("<runscript", "<mission"), "not a <runscript>"),
+        (('aircraft="gta"', 'aircraft="gtaa"'), 'no aircraft "gtaa"'),
+        (('dt="0.005"', 'dt="quick"'), "is not a number"),
+        (('initialize="parked"', 'initialize="flying"'), "could not be read"),
+    ],
+)
+def test_what_is_no_script_is_refused_with_its_file(
+    change: tuple[str, str], message: str, script: Path, tmp_path: Path
+) -> None:
+    text = script.read_text("utf-8").replace(*change)
+    script.write_text(
+        text.replace("</runscript>", f"</{change[1][1:]}>") if "mission" in change[1] else text, "utf-8"
+    )
+    with pytest.raises(InputError, match=message) as caught:
+        replay(str(script), tmp_path / "runs", Choices())
+    assert caught.value.file == str(script)
+    assert not list((tmp_path / "runs").glob("*")) if (tmp_path / "runs").exists() else True
+
+
+def test_a_misspelt_property_is_no_new_one(
+    script: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["replay", str(script), "--set", "fcs/flap-cmd-nrom=1", "--out", str(tmp_path / "runs")]) == 2
+    assert "did you mean fcs/flap-cmd-norm" in capsys.readouterr().err
+
+
+def test_a_script_that_aborts_jsbsim_does_not_take_us_along(tmp_path: Path, script: Path) -> None:
+    root = tmp_path / "root"
+    home = root / "aircraft" / "stone"
+    home.mkdir(parents=True)
+    plain = (SHIPPED / "aircraft" / "ball" / "ball.xml").read_text("utf-8")
+    unknown = '<axis name="DRAG"><function name="aero/d"><property>no/such</property></function></axis>'
+    aerodynamics = f"<aerodynamics>{unknown}</aerodynamics></fdm_config>"
+    text = plain.partition("<aerodynamics")[0] + aerodynamics
+    (home / "stone.xml").write_text(text, "utf-8")
+    (home / "parked.xml").write_text('<initialize name="parked"/>', "utf-8")
+    script.write_text(script.read_text("utf-8").replace('"gta"', '"stone"'), "utf-8")
+    with pytest.raises(FlightError) as caught:
+        replay(str(script), tmp_path / "runs", Choices(root=root))
+    assert caught.value.exit_code == 3
+    assert "ended the process" in str(caught.value)
+
+
+def test_a_script_without_an_end_is_stopped_by_its_limit(script: Path, tmp_path: Path) -> None:
+    script.write_text(script.read_text("utf-8").replace('end="1.0"', 'end="1e9"'), "utf-8")
+    run, stopped, _ = replay(str(script), tmp_path / "runs", Choices(limit=1.0))
+    assert stopped is not None
+    assert "has not ended after 1 s" in str(stopped)
+    assert run.history["time"][-1] > 1.0
+
+
+def test_a_state_that_is_no_number_is_named(tmp_path: Path) -> None:
+    file = tmp_path / "nan.xml"
+    heavy = '<set name="inertia/pointmass-weight-lbs[0]" value="1e308"/>'
+    text = SCRIPT.format(run="").replace('<set name="fcs/flap-cmd-norm" value="1"/>', heavy)
+    file.write_text(text.replace('end="1.0"', 'end="20"'), "utf-8")
+    _, stopped, _ = replay(str(file), tmp_path / "runs", Choices())
+    assert stopped is not None
+    assert "no longer finite" in str(stopped)
+
+
+def test_export_needs_the_record_of_a_flight(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["export", str(tmp_path)]) == 2
+    assert "not the folder of a run" in capsys.readouterr().err
