@@ -129,6 +129,7 @@ class JSBSimPlant:
         self._standing_height = self._read("position/h-agl-ft") * FT
         self._run = self._fdm.run
         self._terrain_seen = 0
+        self._elevation = placement.elevation
         self._read_whole = 0
         self._sink = 0.0
         self._write(Commands())
@@ -191,7 +192,10 @@ class JSBSimPlant:
                 raise impact(state, sink, struck=struck)
         if self._steps - self._terrain_seen >= TERRAIN_PERIOD and state.height > TERRAIN_HEIGHT:
             self._terrain_seen = self._steps
-            self._set_terrain(self._terrain(state.latitude, state.longitude) / FT)
+            elevation = self._terrain(state.latitude, state.longitude)
+            if elevation != self._elevation:
+                self._elevation = elevation
+                self._set_terrain(elevation / FT)
         return state
 
     def _renew(self, readings: Sequence[Reading]) -> None:

@@ -1,9 +1,9 @@
 """A flight of ours as one JSBSim script that the stock program replays bit for bit.
 
 Script events run at the head of a frame, where a value written by Python between two frames is first seen. So every
-property that the flight wrote often is set each frame, in one continuous event, from a table that holds each value
-until the next (two breakpoints between the same two frames: the interpolation never shows); what was written a few
-times gets an event for each time. Values are written with all their digits.
+property that the flight wrote often is set at each of the pilot's steps, by one event, from a table that holds each
+value until the next (two breakpoints between the same two frames: the interpolation never shows); what was written a
+few times gets an event for each time. Values are written with all their digits.
 """
 
 from collections import defaultdict
@@ -17,6 +17,7 @@ from harness.log import Inputs, Run
 from harness.log.inputs import AT_START, BEFORE, Write
 
 INITIAL = "replay"  # aircraft/NAME/replay.xml: the initial file the scripts name, empty on purpose
+CLOCK = "replay/frame-of-step"  # 1 in the first frame of each pilot step: only then may something change
 FEW = 4
 """A property written more often than this is set from a table in every frame; others by events. Few events cost less
 than the table and leave what the aircraft itself writes to the property alone."""
@@ -44,6 +45,7 @@ def script_of(run: Run, inputs: Inputs) -> str:
         f"<description>{escape(_description(run, inputs))}</description>",
         f'<use aircraft={quoteattr(aircraft)} initialize="{INITIAL}"/>',
         f'<run start="0" end="{frames * dt!r}" dt="{dt!r}">',
+        f'<property value="0">{CLOCK}</property>',
         *(f'<property value="{w.value!r}">{w.name}</property>' for w in inputs.writes if w.step == BEFORE),
         *_event("start", 0.0, (w for w in inputs.writes if w.step in (AT_START, 0))),
         *_rare_events(rarely, inputs, dt),
@@ -105,10 +107,15 @@ def _rare_events(writes: Sequence[Write], inputs: Inputs, dt: float) -> Iterator
 
 
 def _tables(often: dict[str, Series], inputs: Inputs, dt: float) -> Iterator[str]:
-    """One continuous event; properties written alike, such as four throttles, share a table."""
+    """An event that comes at each pilot step; properties written alike, such as four throttles, share a table."""
     if not often:
         return
-    yield '<event name="pilot" continuous="true"><condition>simulation/sim-time-sec ge 0</condition>'
+    yield '<event name="clock" continuous="true"><condition>simulation/sim-time-sec ge 0</condition>'
+    yield (
+        f'<set name="{CLOCK}"><function><mod><property>simulation/frame</property>'
+        f"<value>{inputs.frames_per_step}</value></mod></function></set></event>"
+    )
+    yield f'<event name="pilot" persistent="true"><condition>{CLOCK} eq 1</condition>'
     names: dict[tuple[tuple[int, float], ...], str] = {}
     for name, series in often.items():
         key = tuple(series)
