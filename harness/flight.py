@@ -99,6 +99,7 @@ def prepare(
         inputs=inputs,
     )
     configure(plant, [manual.configurations[name][choice] for name, choice in mission.configuration.items()])
+    plant.use_sensors()
     return Pilot(mission, manual, departure, Ils(arrival), 1.0 / PILOT_RATE), plant
 
 

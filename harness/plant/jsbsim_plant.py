@@ -2,7 +2,7 @@
 
 import ctypes
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import degrees, inf, isfinite, nan
 from operator import call
 from pathlib import Path
@@ -16,7 +16,7 @@ from harness.log import Inputs
 from harness.log.inputs import AT_START, BEFORE, Write
 from harness.plant.impact import IMPACT_SINK, impact
 from harness.plant.messages import Messages
-from harness.plant.properties import COMMANDS, PSF, STATE, Binding
+from harness.plant.properties import COMMANDS, PSF, SENSED, STATE
 from harness.state import (
     FAST,
     FIELDS,
@@ -45,6 +45,7 @@ STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground t
 GROUND_TRIM = 2.0  # JSBSim's trim mode for an aircraft on its wheels
 FIXED, MOVABLE = 1, 5  # point masses: the first of the four that stay, and the first of those that leave
 INCH = FT / 12
+WARM_UP = 10.0  # s until every sensor shows what it senses: five time constants of the slowest
 BELOW_GROUND = -2.0  # m: no strut is that short
 
 Reading = tuple[str, Callable[[], float], float]
@@ -113,12 +114,7 @@ class JSBSimPlant:
         self._fdm = load(root, aircraft, rate)
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air)
-        self._readings = [
-            (field, self._getter(binding), binding.factor)
-            for field, binding in zip(FIELDS, STATE, strict=True)
-        ]
-        self._medium_readings = self._readings[: len(FAST) + len(MEDIUM)]
-        (_, _, _), (_, self._vertical_speed, _), (_, self._pitch, _) = self._readings[: len(FAST)]
+        self._bind({})
         self._state = State(*[0.0] * len(FIELDS))
         self._close = False
         self._blind = MEDIUM_PERIOD  # pilot steps until more than the fast fields are read
@@ -126,7 +122,8 @@ class JSBSimPlant:
         self._set_terrain = self.setter("position/terrain-elevation-asl-ft")
         self._written = Commands(*[nan] * len(Commands._fields))
         self._structure = self._contacts()
-        self._standing_height = self._read("position/h-agl-ft") * FT
+        self._true_height = self._node("position/h-agl-ft").get_double_value
+        self._standing_height = self._true_height() * FT
         self._run = self._fdm.run
         self._terrain_seen = 0
         self._elevation = placement.elevation
@@ -140,6 +137,19 @@ class JSBSimPlant:
     def fdm(self) -> jsbsim.FGFDMExec:
         """The simulator itself, for tools that look at more than State."""
         return self._fdm
+
+    def use_sensors(self) -> None:
+        """Let State come from the aircraft's sensors from now on, where it has one, if they are on."""
+        if self._read("sensor/active"):
+            for _ in range(
+                round(WARM_UP / self._step)
+            ):  # pilot steps, so that the flight's clock is the simulator's
+                for _ in self._frames:
+                    self._run()
+                self._steps += 1
+            self._inputs.steps = self._steps
+            self._bind(SENSED)
+            self._renew(self._readings)
 
     def state(self) -> State:
         """The aircraft as it is now, renewed in place by `advance`."""
@@ -182,21 +192,31 @@ class JSBSimPlant:
             self._read_whole = self._steps
         self._renew(self._readings if whole else self._medium_readings)
         sink, self._sink = self._sink, -state.vertical_speed
-        self._close = close_to_ground(state.height, state.cas)
+        height = self._true_height() * FT - self._standing_height
+        self._close = close_to_ground(height, state.cas)
         # on multiples of the period, as the log records: a record never holds an older position than its time
         odd = self._steps % 2  # records made close to the ground are every second step
         self._blind = 1 if self._close or odd else MEDIUM_PERIOD - self._steps % MEDIUM_PERIOD
-        if state.height < LOW:
-            struck = any(map(call, self._structure)) or state.height < BELOW_GROUND
+        if height < LOW:
+            struck = any(map(call, self._structure)) or height < BELOW_GROUND
             if struck or (state.main_on_ground and sink > IMPACT_SINK):
                 raise impact(state, sink, struck=struck)
-        if self._steps - self._terrain_seen >= TERRAIN_PERIOD and state.height > TERRAIN_HEIGHT:
+        if self._steps - self._terrain_seen >= TERRAIN_PERIOD and height > TERRAIN_HEIGHT:
             self._terrain_seen = self._steps
             elevation = self._terrain(state.latitude, state.longitude)
             if elevation != self._elevation:
                 self._elevation = elevation
                 self._set_terrain(elevation / FT)
         return state
+
+    def _bind(self, sensed: Mapping[str, str]) -> None:
+        """Read State from the true values, but for those that are `sensed` by another property."""
+        self._readings = [
+            (field, self._getter(sensed.get(binding.name, binding.name)), binding.factor)
+            for field, binding in zip(FIELDS, STATE, strict=True)
+        ]
+        self._medium_readings = self._readings[: len(FAST) + len(MEDIUM)]
+        (_, _, _), (_, self._vertical_speed, _), (_, self._pitch, _) = self._readings[: len(FAST)]
 
     def _renew(self, readings: Sequence[Reading]) -> None:
         """Put what is read into State, unless some of it is not finite."""
@@ -288,8 +308,8 @@ class JSBSimPlant:
             )
         return node
 
-    def _getter(self, binding: Binding) -> Callable[[], float]:
-        node = self._node(binding.name)
+    def _getter(self, name: str) -> Callable[[], float]:
+        node = self._node(name)
         return node.get_double_value
 
     def setter(self, name: str) -> Callable[[float], object]:

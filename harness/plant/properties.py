@@ -65,6 +65,29 @@ _STATE = {
 }
 STATE: tuple[Binding, ...] = tuple(_STATE[field] for field in FIELDS)
 
+SENSED = {
+    "atmosphere/pressure-altitude": "sensor/pressure-altitude-ft",
+    "velocities/vc-fps": "sensor/cas-fps",
+    "velocities/vt-fps": "sensor/tas-fps",
+    "velocities/mach": "sensor/mach",
+    "atmosphere/T-R": "sensor/temperature-r",
+    "atmosphere/P-psf": "sensor/pressure-psf",
+    "velocities/h-dot-fps": "sensor/vertical-speed-fps",
+    "velocities/p-rad_sec": "sensor/roll-rate-rad_sec",
+    "velocities/q-rad_sec": "sensor/pitch-rate-rad_sec",
+    "velocities/r-rad_sec": "sensor/yaw-rate-rad_sec",
+    "accelerations/Nz": "sensor/load-factor",
+    "attitude/phi-rad": "sensor/bank-rad",
+    "attitude/theta-rad": "sensor/pitch-rad",
+    "attitude/psi-rad": "sensor/heading-rad",
+    "position/lat-geod-rad": "sensor/latitude-rad",
+    "position/long-gc-rad": "sensor/longitude-rad",
+    "velocities/v-north-fps": "sensor/velocity-north-fps",
+    "velocities/v-east-fps": "sensor/velocity-east-fps",
+    "position/h-agl-ft": "sensor/height-ft",
+}
+"""What a pilot who flies by the aircraft's sensors (systems/sensors.xml) reads in place of what; the same units."""
+
 _COMMANDS = {
     "pitch_hold": "ap/pitch-mode",
     "pitch": "ap/pitch-target-rad",
