@@ -76,6 +76,7 @@ HEAD = """<?xml version="1.0"?>
   the blade angle belongs to systems/propulsion-fadec.xml, since JSBSim's own governor moves a fixed fraction per
   frame. ixx, estimate: 550 kg m2, propeller (683 kg, EASA TCDS P.012) with hub at a third of the radius, gears and
   power turbine. gearratio 8.8: public Rust engine catalogue (8.79), unverified.
+  minpitch and maxpitch: the ends of the table. minrpm and maxrpm, 655 and 842: [facts prop_rpm_low, prop_rpm_takeoff].
 -->
 <propeller name="GTA 8-blade 5.33 m" version="1.1">
   <ixx unit="KG*M2"> 550.0 </ixx>

@@ -5,7 +5,7 @@ properties are read and written by their names.
 """
 
 from collections.abc import Callable, Iterable
-from math import atan2, cos, degrees, sin, sqrt
+from math import atan2, cos, sin, sqrt
 from pathlib import Path
 from typing import NamedTuple, Self
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from harness.errors import InputError
 from harness.loading.aircraft import read_stowage
-from harness.plant.jsbsim_plant import INTEGRATORS, STANDING_HEIGHT, load
+from harness.plant.jsbsim_plant import GROUND_TRIM, INTEGRATORS, STANDING_HEIGHT, load
 from harness.plant.properties import STATE, THROTTLES, Binding
 from harness.state import FIELDS
 from harness.units import FT, LB
@@ -22,6 +22,8 @@ from harness.world.atmosphere import GRAVITY, geometric
 
 LBF = LB * GRAVITY
 ENGINES = len(THROTTLES)
+WHEELS = 14
+CLOSE = 0.5  # m of pressure altitude
 RUN_UP = 60.0  # s at most until engines that start in the air are steady
 STEADY = 2e-4  # relative change of propeller speed and thrust within half a second
 USUAL_FUEL = 10_000.0  # kg
@@ -151,13 +153,24 @@ class Bench:
         ):
             self.put(f"ic/{name}", value)
         self.initialise()
+        height = geometric(altitude)
+        for _ in range(3):  # on a warm day a pressure altitude is higher up
+            error = altitude - self["pressure_altitude"]
+            if abs(error) < CLOSE:
+                break
+            height += error
+            self.put("ic/h-sl-ft", height / FT)
+            self.initialise()
 
-    def park(self, heading: float = 0.0) -> None:
-        """Stand on a runway at sea level, engines off, brakes on."""
+    def park(self, *, speed: float = 0.0) -> None:
+        """Stand on a runway at sea level that points north, or roll along it at `speed` m/s; brakes on."""
+        self.put("ic/lat-geod-deg", 50.0)
+        self.put("ic/long-gc-deg", 8.0)
         self.put("ic/h-agl-ft", STANDING_HEIGHT / FT)
-        self.put("ic/psi-true-deg", degrees(heading))
+        self.put("ic/u-fps", speed / FT)
         self.initialise()
-        self._fdm.do_trim(2)
+        self.put("simulation/do_simple_trim", GROUND_TRIM)
+        self.put_all("gear/wheel-speed-mps", speed, WHEELS)
         self.brakes(1.0)
         self.move(True)
 

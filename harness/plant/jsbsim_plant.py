@@ -11,6 +11,7 @@ from typing import NamedTuple
 import jsbsim
 
 from harness.errors import InputError, NumericalError
+from harness.lint.aircraft import check
 from harness.loading.balance import Item, combined, four_points
 from harness.log import Inputs
 from harness.log.inputs import AT_START, BEFORE, Write
@@ -333,6 +334,7 @@ _MOVING = range(_STANDING)
 
 def load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
     """A simulator with this aircraft, `rate` frames a second. Raises InputError when JSBSim refuses it."""
+    check(root, aircraft)
     messages = Messages()
     jsbsim.set_logger(messages)
     fdm = jsbsim.FGFDMExec(str(root))

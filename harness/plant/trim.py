@@ -27,9 +27,10 @@ SCALE = {
 }
 """What each unknown is measured in, so that Newton's steps are alike. Controls as commands -1..1."""
 SETTLE = 2.0  # s of frozen time before forces are read: actuators, downwash, engines following the lever
-ENGINE_SETTLE = 6.0  # s, while the lever is one of the unknowns
+ENGINE_SETTLE = 4.0  # s, while the lever is one of the unknowns
 FORCES = ("forward acceleration", "downward acceleration", "pitch acceleration")
 SIDES = ("side acceleration", "roll acceleration", "yaw acceleration")
+STOPPED = 2.0  # m/s2 for the whole travel of the lever, about what it gives within
 GOOD = 2e-3  # m/s2 and rad/s2 x 10: what is left may shift a flight by metres within half a minute
 
 
@@ -76,6 +77,13 @@ def trim(
         bench.run(settle)
         return now, moved
 
+    def saturated(values: NDArray[np.float64]) -> float:
+        """What a lever beyond its stops would still have to give, m/s2: keeps Newton's matrix regular there."""
+        if "throttle" not in unknowns:
+            return 0.0
+        lever = float(values[unknowns.index("throttle")]) * SCALE["throttle"]
+        return STOPPED * (max(0.0, lever - 1.0) + min(0.0, lever))
+
     def residual(values: NDArray[np.float64]) -> NDArray[np.float64]:
         now, _ = settled(values)
         gain = growth * now.tas * sin(now.path)
@@ -83,6 +91,7 @@ def trim(
             "forward acceleration": gain * cos(now.alpha),
             "downward acceleration": gain * sin(now.alpha),
         }
+        wanted["forward acceleration"] -= saturated(values)
         return np.array(
             [
                 (bench[name] - wanted.get(name, 0.0)) * (1.0 if name in wanted or "side" in name else 10.0)
@@ -94,12 +103,12 @@ def trim(
     command(bench, start)
     bench.run_up()
     found = root(
-        residual, first, method="hybr", options={"eps": 1e-5, "xtol": 1e-6, "factor": 1.0, "maxfev": 60}
+        residual, first, method="hybr", options={"eps": 1e-5, "xtol": 1e-6, "factor": 1.0, "maxfev": 40}
     )
     left = float(np.max(np.abs(residual(found.x))))
     now, moved = settled(found.x)
-    beyond = [name for name, value in moved.items() if abs(value) > 1.0 + 1e-6]
-    if left > GOOD or beyond:
+    beyond = [name for name, value in moved.items() if not -1.0 - 1e-6 <= value <= 1.0 + 1e-6]
+    if not left <= GOOD or beyond:
         raise NoTrimError(
             "the aircraft cannot be balanced",
             time=0.0,

@@ -38,6 +38,7 @@ class Helm:
     def hold_speed(self, time: float) -> None:
         """Fly the speed with the aircraft's pitch hold."""
         self._bench.put("fcs/law", 0.0)
+        self._bench.put("fcs/law", 0.0)
         self._bench.put("ap/pitch-mode", 1.0)
         self._bench.put("ap/pitch-target-rad", self._pitch(time))
 

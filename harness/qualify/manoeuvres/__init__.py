@@ -3,7 +3,18 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from harness.qualify.manoeuvres import climb, cruise, engine, stall
+from harness.qualify.manoeuvres import (
+    bookkeeping,
+    climb,
+    cruise,
+    engine,
+    ground,
+    handling,
+    landing,
+    payload,
+    payload_range,
+    stall,
+)
 from harness.qualify.outcome import Manoeuvre
 
 MANOEUVRES: Mapping[str, Manoeuvre] = MappingProxyType(
@@ -18,6 +29,22 @@ MANOEUVRES: Mapping[str, Manoeuvre] = MappingProxyType(
         "power-on stall": stall.power_on_stall,
         "minimum control speed in the air": stall.minimum_control_speed_air,
         "thrust at speed": engine.thrust_at_speed,
+        "take-off": ground.take_off,
+        "brake hold": ground.brake_hold,
+        "coast-down": ground.coast_down,
+        "stopping by brakes": ground.stopping,
+        "turn on the ground": ground.turn,
+        "minimum control speed on the ground": ground.minimum_control_speed_ground,
+        "landing": landing.landing,
+        "airdrop": payload.airdrop,
+        "longitudinal modes": handling.longitudinal,
+        "lateral modes": handling.lateral,
+        "bank change": handling.bank_change,
+        "payload-range": payload_range.payload_range,
+        "mass bookkeeping": bookkeeping.mass,
+        "energy bookkeeping": bookkeeping.energy,
+        "rotation bookkeeping": bookkeeping.rotation,
+        "rating": engine.rating,
         "lever step": engine.lever_step,
     }
 )

@@ -4,9 +4,13 @@ from harness.plant.bench import Attitude, Bench
 from harness.qualify.condition import Condition
 from harness.qualify.outcome import Aircraft, Outcome, history
 from harness.units import KN
+from harness.world.airspeed import mach_from_tas
+from harness.world.atmosphere import SEA_LEVEL_PRESSURE, SEA_LEVEL_TEMPERATURE, pressure, temperature
 
 LEVER_STEP = 10.0  # s that are watched after the lever moved
 MW = 1e6
+TAKE_OFF_POWER = 7.971e6  # W: EASA TCDS E.033 Iss. 08
+FLAT = 1.48  # with the exponents: aircraft/gta/facts.csv flat_rating_factor
 
 
 def running(aircraft: Aircraft, condition: Condition) -> Bench:
@@ -52,5 +56,32 @@ def lever_step(aircraft: Aircraft, condition: Condition) -> Outcome:
         [
             history(record, "propeller, rpm", ("propeller rpm", 1.0), marks=[("governed", wanted)]),
             history(record, "power an engine, MW", ("power", MW)),
+        ],
+    )
+
+
+def rating(aircraft: Aircraft, condition: Condition) -> Outcome:
+    """Power at full lever against the flat-rating law, computed here from the standard atmosphere."""
+    bench = running(aircraft, condition)
+    mach, altitude = (
+        mach_from_tas(condition.tas, temperature(condition.altitude, condition.isa)),
+        condition.altitude,
+    )
+    ram = 1 + 0.2 * mach**2
+    theta = temperature(altitude, condition.isa) / SEA_LEVEL_TEMPERATURE * ram
+    delta = pressure(altitude) / SEA_LEVEL_PRESSURE * ram**3.5
+    law = TAKE_OFF_POWER * min(1.0, FLAT * delta**0.92 * theta**-0.45)
+    bench.levers(0.0)
+    bench.run(15.0)
+    bench.levers(condition.lever)
+    record = bench.record(LEVER_STEP, ("power", "thrust"))
+    return Outcome(
+        {
+            "power": float(record["power"][-1]) / MW,
+            "power over the law": 100 * float(record["power"][-1]) / law,
+        },
+        [
+            history(record, "power an engine, MW", ("power", MW), marks=[("law", law / MW)]),
+            history(record, "thrust, kN", ("thrust", KN)),
         ],
     )
