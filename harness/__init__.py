@@ -13,11 +13,14 @@ from os import PathLike
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import pyarrow as pa
+
     from harness.flight import Observer
     from harness.log import Run
+    from harness.studies.engine import Progress
 
 __version__ = "0.1.0"
-__all__ = ["__version__", "fly"]
+__all__ = ["__version__", "fly", "study"]
 
 
 def fly(
@@ -48,3 +51,26 @@ def fly(
     if stopped is not None:
         raise stopped
     return run
+
+
+def study(
+    study: str | PathLike[str],
+    *,
+    out: str | PathLike[str] | None = None,
+    workers: int | None = None,
+    cluster: str | None = None,
+    resume: bool = False,
+    progress: "Progress | None" = None,
+) -> "pa.Table":
+    """Run a study and return its table, one row a case.
+
+    `study` is a name from `harness list` or the path of a study file. With `out`, that folder keeps the results, and
+    `resume` continues what it holds; without, nothing is kept. `workers` are processes of this computer (all cores
+    by default); `cluster` is the address of a Dask scheduler instead. `progress(done, total, failed)` is called now
+    and then. Cases that did not succeed are rows too, with their status and reason.
+
+    Raises InputError, OutputError.
+    """
+    from harness.studies.command import run
+
+    return run(study, out=out, workers=workers, cluster=cluster, resume=resume, progress=progress)

@@ -110,8 +110,25 @@ def parser() -> Parser:
     qualifying.set_defaults(run=qualify)
 
     add_replay(commands)
+
+    studying = commands.add_parser(
+        "study",
+        help="fly a mission many times with factors varied",
+        description="Run the cases of a study, or what is left of them, into one table.",
+    )
+    studying.add_argument("study", metavar="STUDY", help="a name from `harness list`, or a study file")
+    studying.add_argument("--workers", metavar="N", type=int, help="processes (default: one for each core)")
+    studying.add_argument("--resume", action="store_true", help="continue, and try again what failed")
+    studying.add_argument(
+        "--cluster", metavar="ADDRESS", help="run on a Dask cluster: its scheduler, such as tcp://host:8786"
+    )
+    studying.add_argument("--out", metavar="DIR", help="folder of the results (default: runs/study-STUDY)")
+    studying.add_argument("--yes", action="store_true", help="do not ask, however many cases there are")
+    add_json(studying)
+    studying.set_defaults(run=study)
+
     listing = commands.add_parser(
-        "list", help="missions, aircraft and scripts", description="What can be named."
+        "list", help="missions, studies, aircraft and scripts", description="What can be named."
     )
     add_json(listing)
     listing.set_defaults(run=show_list)
@@ -322,6 +339,45 @@ def export(chosen: argparse.Namespace) -> int:
     return 0
 
 
+def study(chosen: argparse.Namespace) -> int:
+    """`harness study`."""
+    from harness.studies import command
+    from harness.studies.console import StudyProgress, describe_study
+
+    opened = command.open_study(chosen.study)
+    signal.signal(signal.SIGTERM, end)
+    folder = command.default_folder(opened) if chosen.out is None else chosen.out
+    try:
+        with StudyProgress(opened.name, sys.stderr) as progress:
+            summary = command.conduct(
+                opened,
+                folder,
+                workers=chosen.workers,
+                cluster=chosen.cluster,
+                resume=chosen.resume,
+                confirm=None if chosen.yes else confirm,
+                progress=progress,
+            )
+    except KeyboardInterrupt:
+        say(f"harness: interrupted\n    what was finished is in {folder}; continue with --resume")
+        return INTERRUPTED
+    if chosen.json:
+        print_json(summary)
+    else:
+        print(describe_study(summary))
+    return 0 if summary["counts"].keys() <= {"ok"} else FlightError.exit_code
+
+
+def confirm(cases: int) -> None:
+    """Ask whether so many cases are meant. Raises InputError when they are not, or when nobody can be asked."""
+    remedy = "fewer levels, or --yes if they are meant"
+    if not sys.stdin.isatty():
+        raise InputError(f"the study has {cases:,} cases", remedy=remedy)
+    say(f"The study has {cases:,} cases. Go on? [y/N]")
+    if sys.stdin.readline().strip().lower() not in {"y", "yes"}:
+        raise InputError(f"the {cases:,} cases were not begun", remedy=remedy)
+
+
 def show_list(chosen: argparse.Namespace) -> int:
     """`harness list`."""
     found = {
@@ -331,6 +387,7 @@ def show_list(chosen: argparse.Namespace) -> int:
         }
         for kind, named in (
             ("missions", resources.missions()),
+            ("studies", resources.studies()),
             ("aircraft", resources.aircraft()),
             ("scripts", resources.scripts()),
         )

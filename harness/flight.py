@@ -5,7 +5,7 @@ from math import cos, sin
 from typing import Protocol
 
 from harness.errors import FlightError, InputError, TimeLimitError
-from harness.instructor import Instructor, configure
+from harness.instructor import Instructor, check_kept, configure
 from harness.loading.aircraft import read_stowage
 from harness.log import Event, Inputs, Reporter
 from harness.manual import FlightManual
@@ -68,6 +68,7 @@ def fly_mission(
     except FlightError as error:
         error.phase = pilot.phase
         raise
+    check_kept(plant, mission.properties)
 
 
 def prepare(
@@ -98,7 +99,8 @@ def prepare(
         terrain=_Terrain(departure, arrival),
         inputs=inputs,
     )
-    configure(plant, [manual.configurations[name][choice] for name, choice in mission.configuration.items()])
+    chosen = [manual.configurations[name][choice] for name, choice in mission.configuration.items()]
+    configure(plant, [*chosen, *mission.properties])
     plant.use_sensors()
     return Pilot(mission, manual, departure, Ils(arrival), 1.0 / PILOT_RATE), plant
 

@@ -1,6 +1,7 @@
 """The instructor's station of the simulator: sets the aircraft up as the mission asks, and makes it fail."""
 
 from collections.abc import Callable, Sequence
+from math import isclose
 from typing import NamedTuple
 
 from harness.errors import InputError
@@ -57,6 +58,19 @@ def configure(plant: JSBSimPlant, settings: Sequence[PropertySetting]) -> None:
     """Set the aircraft up. Raises InputError when it does not have what its flight manual says."""
     for setting in settings:
         _order(setting, plant)()
+
+
+def check_kept(plant: JSBSimPlant, settings: Sequence[PropertySetting]) -> None:
+    """Raise InputError when, after flying, the aircraft has another value than it was set to: it made no difference."""
+    for setting in settings:
+        now = plant.fdm.get_property_value(setting.property)
+        if not isclose(now, setting.value, rel_tol=1e-6, abs_tol=1e-9):
+            raise InputError(
+                f"the property {setting.property} was set to {setting.value:g} and is {now:g}: it is computed",
+                file=setting.file,
+                line=setting.line,
+                remedy="set what it is computed from",
+            )
 
 
 def _order(setting: PropertySetting, plant: JSBSimPlant) -> Callable[[], object]:

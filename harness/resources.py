@@ -22,6 +22,11 @@ def missions() -> dict[str, Path]:
     return _named(root() / "missions")
 
 
+def studies() -> dict[str, Path]:
+    """The studies that come with the harness, by name."""
+    return _named(root() / "missions" / "studies")
+
+
 def scripts() -> dict[str, Path]:
     """The JSBSim scripts that come with the harness, by name."""
     return _named(root() / "scripts")
@@ -38,8 +43,19 @@ def find_mission(mission: str | PathLike[str]) -> Path:
 
     Raises InputError when there is none.
     """
-    text = fspath(mission)
-    known = missions()
+    return _find("mission", mission, missions())
+
+
+def find_study(study: str | PathLike[str]) -> Path:
+    """The file of a study given by name or by path.
+
+    Raises InputError when there is none.
+    """
+    return _find("study", study, studies())
+
+
+def _find(noun: str, wanted: str | PathLike[str], known: dict[str, Path]) -> Path:
+    text = fspath(wanted)
     if text in known:
         return known[text]
     path = Path(text)
@@ -50,10 +66,10 @@ def find_mission(mission: str | PathLike[str]) -> Path:
     except (OSError, ValueError):  # too long, or a NUL character
         exists = False
     if exists and text:
-        raise InputError("is not a file.", file=text, remedy="give a mission's name or its XML file.")
+        raise InputError("is not a file.", file=text, remedy=f"give a {noun}'s name or its XML file.")
     close = did_you_mean(path.stem if path.suffix == ".xml" else text, known)
     raise InputError(
-        f'there is no mission "{text[:200]}", neither a name nor a file.',
+        f'there is no {noun} "{text[:200]}", neither a name nor a file.',
         remedy=f"{close}\n    harness list shows all of them.".lstrip(),
     )
 

@@ -5,13 +5,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 from harness import __version__, resources
 from harness.errors import FlightError
 from harness.log import Event, FlightLog, Inputs, Reporter, Run, RunFolder, conclude, write_run
-from harness.manual import read_manual
+from harness.manual import FlightManual, read_manual
 from harness.mission.check import check_file
+from harness.mission.model import Mission
 from harness.state import Commands, State
 
 if TYPE_CHECKING:  # at run time only when flying: it brings JSBSim along
@@ -45,6 +46,13 @@ class Session:
     def __init__(self, mission: str | PathLike[str], overrides: Sequence[str] = ()) -> None:
         self.mission = check_file(resources.find_mission(mission), overrides)
         self.manual = read_manual(self.mission.aircraft)
+
+    @classmethod
+    def of(cls, mission: Mission, manual: FlightManual) -> Self:
+        """A session of a mission that was read and checked before."""
+        session = cls.__new__(cls)
+        session.mission, session.manual = mission, manual
+        return session
 
     def fly(
         self,

@@ -54,11 +54,14 @@ class Words:
 class Source:
     """One XML document: its tree, where its values come from, and the faults found so far."""
 
-    def __init__(self, path: Path, schema: str, *roots: str) -> None:
-        """Read and parse `path`, a document of `schema` with one of these roots. Raises InputError."""
+    def __init__(self, path: Path, schema: str, *roots: str, text: str | None = None) -> None:
+        """Read and parse `path`, a document of `schema` with one of these roots. Raises InputError.
+
+        With `text`, that is the document, and `path` only names it in messages.
+        """
         self.path = path
         self.schema, self.words = _schema(schema)
-        self.root = read_document(path)
+        self.root = read_document(path, text=text)
         self.faults: list[InputError] = []
         self.origins: dict[tuple[Element, str], tuple[str, int | None]] = {}
         if self.root.tag not in roots:
@@ -204,8 +207,10 @@ def read_bytes(path: Path, largest: int = LARGEST_FILE) -> bytes:
     return data
 
 
-def read_document(path: Path, *, largest: int = LARGEST_FILE, most_elements: int = MOST_ELEMENTS) -> Element:
-    """The root of a document of at most these sizes. Raises InputError."""
+def read_document(
+    path: Path, *, text: str | None = None, largest: int = LARGEST_FILE, most_elements: int = MOST_ELEMENTS
+) -> Element:
+    """The root of a document of at most these sizes; of `text` if given, of the file otherwise. Raises InputError."""
     parser = etree.XMLParser(
         resolve_entities=False,
         no_network=True,
@@ -215,7 +220,8 @@ def read_document(path: Path, *, largest: int = LARGEST_FILE, most_elements: int
         remove_pis=True,
     )
     try:
-        root = etree.fromstring(read_bytes(path, largest), parser)
+        document = read_bytes(path, largest) if text is None else text.encode()
+        root = etree.fromstring(document, parser)
     except etree.XMLSyntaxError as error:
         # A column is "line 3, column 7" at the end of the message: the line is told before it.
         what = re.sub(r", line \d+, column (\d+)$", r", column \1", str(error.msg))

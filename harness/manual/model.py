@@ -38,7 +38,7 @@ class PropertySetting(NamedTuple):
     property: str
     value: float
     file: str
-    line: int
+    line: int | None
 
 
 class Numbers(dict[str, float]):

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 from harness.loading.balance import Item
+from harness.manual import PropertySetting
 from harness.navigation.database import Station
 from harness.plan import Failure, PhasePlan, Step
 from harness.units import Level, Quantity, Speed
@@ -134,7 +135,8 @@ class Mission:
     """All of a mission file.
 
     `speeds`, `gains` and `phases` change the flight manual for this mission only. `configuration` has the choice made
-    for each configuration of the manual that is not left as it is. `text` is the mission as flown, with
+    for each configuration of the manual that is not left as it is; `properties` are numbers of the aircraft's own that
+    are other for this flight, in JSBSim's units. `text` is the mission as flown, with
     its variants and overrides applied. `places` tells where each part was written (file, line), by its path.
     """
 
@@ -151,6 +153,7 @@ class Mission:
     source_path: Path
     text: str
     gains: dict[str, Quantity] = field(default_factory=dict)
+    properties: tuple[PropertySetting, ...] = ()
     configuration: dict[str, str] = field(default_factory=dict)
     failures: tuple[Failure, ...] = ()
     places: dict[str, tuple[str, int | None]] = field(default_factory=dict, compare=False)

@@ -13,8 +13,8 @@ from lxml import etree
 from harness.errors import InputError, did_you_mean
 from harness.xml_source import Element, Source, children, shorten
 
-_STEP = re.compile(r"([^/\[\]]+)(?:\[([^\[\]]*)\])?(/|$)")
-_OPTIONAL = {"environment", "speed", "gain", "configuration", "description"}
+_STEP = re.compile(r"([^/\[\]]+)(?:\[((?:[^\[\]]|\[\d+\])*)\])?(/|$)")  # a property's name may have an index
+_OPTIONAL = {"environment", "speed", "gain", "property", "configuration", "description"}
 """Elements that are made when a path names one that is not there: their attributes mean something alone."""
 
 
@@ -29,7 +29,7 @@ class Override(NamedTuple):
 
 def from_option(text: str) -> Override:
     """The override in the text after `--set`. Raises InputError."""
-    found = re.fullmatch(r"((?:[^=\[\]]|\[[^\]]*\])+)=(.*)", text, re.DOTALL)
+    found = re.fullmatch(r"((?:[^=\[\]]|\[(?:[^\[\]]|\[\d+\])*\])+)=(.*)", text, re.DOTALL)
     file = f"--set {shorten(text)}"
     if not found:
         remedy = "write --set PATH=VALUE, e.g. --set 'loading/take-off-mass=110 t'"

@@ -8,6 +8,7 @@ from lxml import etree
 
 from harness import resources
 from harness.errors import did_you_mean
+from harness.manual import PropertySetting
 from harness.mission.loading import read_loading
 from harness.mission.model import (
     Arrival,
@@ -30,25 +31,31 @@ SCHEMA = "mission.xsd"
 
 
 def read_mission(
-    path: str | Path, overrides: Iterable[str] = (), database: Database | None = None
+    path: str | Path,
+    overrides: Iterable[str | Override] = (),
+    database: Database | None = None,
+    *,
+    text: str | None = None,
 ) -> Mission:
-    """Read a mission file, with `PATH=VALUE` overrides applied.
+    """Read a mission file, with overrides applied, which as texts are `PATH=VALUE`.
+
+    With `text`, that is the mission, and `path` only names it in messages.
 
     Raises InputErrors: what is wrong in the file by itself, and stations and runways that do not exist.
     Whether the aircraft can fly it is for `harness.mission.check`.
     """
-    source = _source(Path(path))
+    source = _source(Path(path), text)
     for override in overrides:
-        apply(source, from_option(override))
+        apply(source, from_option(override) if isinstance(override, str) else override)
     source.validate()
     mission = _Reader(source, database or load()).mission()
     source.finish()
     return replace(mission, source_path=Path(path))  # of a variant: not that of its base
 
 
-def _source(path: Path) -> Source:
+def _source(path: Path, text: str | None) -> Source:
     """The mission's tree; of a variant, the tree of its base with the variant's values set."""
-    source = Source(path, SCHEMA, "mission", "variant")
+    source = Source(path, SCHEMA, "mission", "variant", text=text)
     if source.root.tag == "mission":
         return source
     source.validate()
@@ -102,6 +109,7 @@ class _Reader:
             arrival=self._arrival(arrival),
             phases={phase.get("name", ""): read_phase(self.source, phase) for phase in phases},
             gains=self._gains(aircraft),
+            properties=self._properties(aircraft),
             configuration={} if configuration is None else _words(configuration),
             failures=self._failures(self.source.one(root, "failures", needed=False)),
             source_path=self.source.path,
@@ -140,6 +148,18 @@ class _Reader:
             element.get("name", ""): self.source.read(element, "value", parse_quantity, Quantity(NAN, ""))
             for element in elements
         }
+
+    def _properties(self, aircraft: Element | None) -> tuple[PropertySetting, ...]:
+        elements = [] if aircraft is None else list(children(aircraft, "property"))
+        self.source.distinct(elements, "name")
+        return tuple(
+            PropertySetting(
+                element.get("name", ""),
+                self.source.quantity(element, "value", "ratio"),  # the property's name says its unit
+                *self.source.place(element, "value"),
+            )
+            for element in elements
+        )
 
     def _failures(self, element: Element | None) -> tuple[Failure, ...]:
         elements = [] if element is None else list(children(element, "failure"))

@@ -9,6 +9,8 @@ import pytest
 
 from harness.log import FlightLog, Inputs, conclude
 from harness.mission.check import check_file
+from harness.studies.cases import Cases
+from harness.studies.reader import read_study
 from harness.vocabulary import EDGES, PHASES
 
 EXAMPLE = re.compile(r"```xml\n(.*?)```", re.DOTALL)
@@ -84,3 +86,9 @@ def test_every_key_of_the_summary_is_described(repository: Path) -> None:
     }
     assert run.summary.keys() - described == set()
     assert text.startswith(f"# summary.json, schema {run.summary['schema']}")
+
+
+def test_the_example_of_the_study_file_is_fit_to_run(repository: Path, tmp_path: Path) -> None:
+    (example,) = EXAMPLE.findall((repository / "docs" / "study.md").read_text("utf-8"))
+    (tmp_path / "example.xml").write_text(example, "utf-8")
+    assert Cases(read_study(tmp_path / "example.xml")).count == 6

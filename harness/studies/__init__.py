@@ -1,0 +1,1 @@
+"""Studies: one mission flown many times with factors varied, on all cores or a cluster, into one table."""

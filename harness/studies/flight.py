@@ -1,0 +1,55 @@
+"""Cases of the kind "flight": the whole mission is flown, and its summary is what came out."""
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from typing import Any
+
+from harness.log import FlightLog, Inputs, conclude
+from harness.manual import FlightManual, read_manual
+from harness.mission.check import check
+from harness.mission.overrides import Override
+from harness.mission.reader import read_mission
+from harness.session import Session
+from harness.studies.model import Subject
+
+read_manual_once = cache(read_manual)  # a thousand cases, one aircraft
+MACHINE = frozenset({"wall_time_s", "real_time_factor", "versions"})
+"""What a summary says of the computer rather than of the flight."""
+
+
+def run_case(subject: Subject, overrides: Sequence[Override], seed: int) -> Mapping[str, Any]:  # noqa: ARG001
+    """Fly the mission with the overrides; returns its summary. A flight has nothing random: the seed is not used.
+
+    Raises InputError when it is not fit to fly, FlightError when the flight cannot be completed.
+    """
+    mission = read_mission(subject.file, overrides, text=subject.text)
+    manual: FlightManual = read_manual_once(mission.aircraft)
+    check(mission, manual)
+    run, stopped = Session.of(mission, manual).fly()
+    if stopped is not None:
+        raise stopped
+    return run.summary
+
+
+def probe(subject: Subject, overrides: Sequence[Override]) -> None:
+    """Read the mission with the overrides. Raises InputError for those that lead nowhere or lack their unit."""
+    mission = read_mission(subject.file, overrides, text=subject.text)
+    if mission.properties:  # only the aircraft itself knows which it has
+        from harness.flight import prepare
+
+        prepare(mission, read_manual_once(mission.aircraft), rate=120)
+
+
+def outputs() -> frozenset[str]:
+    """The names in a summary."""
+    summary = conclude(
+        FlightLog(),
+        Inputs(),
+        identity=dict.fromkeys(("mission", "aircraft", "frame_rate_hz")),
+        fixes={},
+        last_waypoint="",
+        mission_text="",
+        wall_time=0.0,
+        failure="nothing was flown",
+    ).summary
+    return frozenset(summary.keys() - MACHINE)

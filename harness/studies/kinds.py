@@ -1,0 +1,37 @@
+"""The kinds of case a study can run, and the module of each, which is imported where a case runs.
+
+A kind's module has
+
+* `run_case(subject, overrides, seed)`: runs one case and returns what came out, a dictionary of numbers and words
+  (nested ones are reached by dotted paths). Raises HarnessError when it could not be completed;
+* `probe(subject, overrides)`: raises InputError for an override that leads nowhere or has the wrong unit;
+* `outputs()`: the names `run_case` returns at its top, but those that differ from one computer to the next.
+"""
+
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from typing import Any, Protocol, cast
+
+from harness.mission.overrides import Override
+from harness.studies.model import Subject
+
+KINDS = {"flight": "harness.studies.flight"}
+"""The module of each kind."""
+
+
+class Kind(Protocol):
+    """What the module of a kind has."""
+
+    def run_case(self, subject: Subject, overrides: Sequence[Override], seed: int) -> Mapping[str, Any]:
+        """Run one case."""
+
+    def probe(self, subject: Subject, overrides: Sequence[Override]) -> None:
+        """Look at what the overrides lead to."""
+
+    def outputs(self) -> frozenset[str]:
+        """The names of what comes out."""
+
+
+def load_kind(module: str) -> Kind:
+    """The kind in that module."""
+    return cast(Kind, import_module(module))
