@@ -148,6 +148,20 @@ def legs(text: str) -> list[str]:
     return [" ".join(block.split()) for block in blocks]
 
 
+def test_tyre_friction_over_slip_follows_burckhardt_s_curve(repository: Path):
+    """Dry asphalt, 1.2801 (1 - exp(-23.99 s)) - 0.52 s, normalised to a peak of 1."""
+    text = (repository / "systems/wheels.xml").read_text("utf-8")
+    shape = re.search(r'"gear/tyre-compliance\[2\]">(.*?)</fcs_function>', text, re.DOTALL)
+    assert shape
+    constant, linear, square = (float(value) for value in re.findall(r"<value>(0\.\d+)</value>", shape[1]))
+    slips = [i / 1000 for i in range(1, 1001)]
+    reference = [1.2801 * (1 - math.exp(-23.99 * s)) - 0.52 * s for s in slips]
+    ours = [s / (constant + s * (linear + square * s)) for s in slips]
+    assert max(ours) == pytest.approx(1.0, abs=0.002)
+    for value, theirs in zip(ours, reference, strict=True):
+        assert value == pytest.approx(theirs / max(reference), abs=0.03)
+
+
 def test_the_six_main_legs_are_alike(repository: Path):
     blocks = legs((repository / "systems/wheels.xml").read_text("utf-8"))
     assert len(blocks) == 18  # stroke; wheels; tyres and swing
