@@ -119,7 +119,7 @@ def loads(fdm: Aircraft) -> list[float]:
 
 def from_the_air(fdm: Aircraft) -> float:
     """Aerodynamic force and thrust along the aircraft, N."""
-    return (fdm["forces/fbx-aero-lbs"] + fdm["forces/fbx-prop-lbs"]) * LBF
+    return sum(fdm[f"forces/fbx-{part}-lbs"] for part in ("aero", "prop", "external")) * LBF
 
 
 def deceleration(fdm: Aircraft, frames: int = 12) -> float:
