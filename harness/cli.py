@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from harness import __version__, resources
 from harness.errors import FlightError, HarnessError, InputError
+from harness.takeoff import command as takeoff
 
 if TYPE_CHECKING:
     from harness.log import Run
@@ -126,6 +127,13 @@ def parser() -> Parser:
     studying.add_argument("--yes", action="store_true", help="do not ask, however many cases there are")
     add_json(studying)
     studying.set_defaults(run=study)
+
+    taking_off = commands.add_parser(
+        "takeoff",
+        help="take-off distances over mass",
+        description="Fly take-offs from standstill to the screen height, one for each mass.",
+    )
+    takeoff.add(taking_off, add_json)
 
     listing = commands.add_parser(
         "list", help="missions, studies, aircraft and scripts", description="What can be named."

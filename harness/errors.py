@@ -28,6 +28,16 @@ class HarnessError(Exception):
         """One error per fault: the command line prints each on its own."""
         return (self,)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Errors cross from a worker process whole, whatever their `__init__` asks for."""
+        return _restored, (type(self), self.args, self.__dict__)
+
+
+def _restored(kind: type[HarnessError], args: tuple[Any, ...], state: dict[str, Any]) -> HarnessError:
+    error = kind.__new__(kind, *args)
+    error.__dict__.update(state)
+    return error
+
 
 class InputError(HarnessError):
     """What we were given is wrong: where, what is wrong, what would be right.

@@ -1,6 +1,6 @@
 """fly_mission: the only place that knows both the pilot and the plant."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import cos, sin
 from typing import Protocol
 
@@ -48,12 +48,30 @@ def fly_mission(
     Raises FlightError when the mission cannot be completed.
     """
     pilot, plant = prepare(mission, manual, rate=rate, inputs=inputs)
+    fly(pilot, plant, observers=observers, time_limit=time_limit)
+    check_kept(plant, mission.properties)
+
+
+def never(state: State) -> bool:  # noqa: ARG001  as `until` of `fly`
+    """Whether a flight is to end before its mission does: no."""
+    return False
+
+
+def fly(
+    pilot: Pilot,
+    plant: JSBSimPlant,
+    *,
+    observers: Sequence[Observer] = (),
+    time_limit: float = TIME_LIMIT,
+    until: Callable[[State], bool] = never,
+) -> None:
+    """Fly until the pilot is done, or `until` says so. Raises FlightError when the mission cannot be completed."""
     pilot.listeners.extend(observer.note for observer in observers)
     instructor = Instructor(pilot, plant, pilot.tell)
     watch = [observer.see for observer in observers]
     state = plant.state()
     try:
-        while not pilot.done:
+        while not pilot.done and not until(state):
             if instructor.waiting:
                 instructor.act(state)
             commands = pilot.act(state)
@@ -68,26 +86,35 @@ def fly_mission(
     except FlightError as error:
         error.phase = pilot.phase
         raise
-    check_kept(plant, mission.properties)
 
 
 def prepare(
-    mission: Mission, manual: FlightManual, *, rate: int, inputs: Inputs | None = None
+    mission: Mission,
+    manual: FlightManual,
+    *,
+    rate: int,
+    pilot_rate: int = PILOT_RATE,
+    runway: Runway | None = None,
+    preset: Mapping[str, float] | None = None,
+    inputs: Inputs | None = None,
 ) -> tuple[Pilot, JSBSimPlant]:
-    """Make the pilot and the plant of a mission, ready for the first step. Raises InputError."""
+    """Make the pilot and the plant of a mission, ready for the first step.
+
+    `pilot_rate` is pilot steps a second, a divisor of `rate`. `runway`, one that need not be in the database,
+    replaces both of the mission's; `preset` are properties of the aircraft to put before the first frame
+    (harness.plant.preset). Raises InputError.
+    """
     if rate not in RATES:
         raise InputError(f"{rate} frames a second are not possible", remedy="choose 120, 240 or 480")
-    database = load()
     manual = manual.with_mission(mission)
-    departure = database.runway(mission.departure.airport, mission.departure.runway)
-    arrival = database.runway(mission.arrival.airport, mission.arrival.runway)
+    departure, arrival = (runway, runway) if runway else _runways(mission)
     empty = manual.limits["operating-empty-mass"]
     day = mission.environment
     plant = JSBSimPlant(
         root(),
         mission.aircraft,
         rate=rate,
-        frames_per_step=rate // PILOT_RATE,
+        frames_per_step=rate // pilot_rate,
         placement=_placement(mission, departure),
         loads=_loads(mission, empty),
         air=Air(
@@ -98,11 +125,20 @@ def prepare(
         ),
         terrain=_Terrain(departure, arrival),
         inputs=inputs,
+        preset=preset,
     )
     chosen = [manual.configurations[name][choice] for name, choice in mission.configuration.items()]
     configure(plant, [*chosen, *mission.properties])
     plant.use_sensors()
-    return Pilot(mission, manual, departure, Ils(arrival), 1.0 / PILOT_RATE), plant
+    return Pilot(mission, manual, departure, Ils(arrival), 1.0 / pilot_rate), plant
+
+
+def _runways(mission: Mission) -> tuple[Runway, Runway]:
+    database = load()
+    return (
+        database.runway(mission.departure.airport, mission.departure.runway),
+        database.runway(mission.arrival.airport, mission.arrival.runway),
+    )
 
 
 def _loads(mission: Mission, empty_mass: float) -> Loads:

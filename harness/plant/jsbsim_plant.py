@@ -98,9 +98,12 @@ class JSBSimPlant:
         air: Air,
         terrain: Callable[[float, float], float],
         inputs: Inputs | None = None,
+        preset: Mapping[str, float] | None = None,
     ) -> None:
         """`rate` is frames a second; `terrain(latitude, longitude)` the elevation in metres;
         `inputs` is filled with all that is written into the simulator.
+
+        `preset` are properties to put before the first frame, see harness.plant.preset.
 
         Raises InputError when the aircraft cannot be loaded or lacks a property that the pilot needs.
         """
@@ -115,6 +118,8 @@ class JSBSimPlant:
         self._fdm = load(root, aircraft, rate)
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air)
+        for name, value in (preset or {}).items():
+            self._put(name, value)
         self._bind({})
         self._state = State(*[0.0] * len(FIELDS))
         self._close = False

@@ -1,0 +1,113 @@
+"""The speeds of CS 25.103 to 25.107 for one take-off: minimum control speeds flown, the others from them."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import nan
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from harness.errors import FlightError, OverrunError
+from harness.flight import fly
+from harness.manual import FlightManual
+from harness.numerics import wrap
+from harness.state import State
+from harness.takeoff.case import Happening, TakeOff
+from harness.takeoff.flight import TIME_LIMIT, prepared
+from harness.units import FT
+
+DEVIATION = 30 * FT  # CS 25.149(e): the most the path may leave the line, rudder alone
+SLOWEST, FASTEST = 40.0, 85.0  # m/s: VMCG lies between
+ROLL_ON = 14.0  # m/s beyond the failure: by then the path comes back or is lost
+TOLERANCE = 0.1  # m/s
+HIGH = 100.0  # m: in the air, for VMCA
+STEADY = 12.0  # s after full rudder; the first swing is not looked at
+TURN_OVER = 1.0  # s
+V2_OVER_VMCA, VR_OVER_VMCA = 1.10, 1.05  # CS 25.107(b)(3), (e)(1)(ii)
+V2_OVER_VSR = 1.08  # CS 25.107(b)(2)(i): turbo-propeller powered, more than three engines
+GAINED = 3.0  # m/s from VR to 35 ft with an engine failed; estimate, put right by flights (FieldFlights)
+
+
+class Speeds(NamedTuple):
+    """Speeds of one take-off, m/s CAS. `vmca` is NaN where the aircraft stalls first; then it limits nothing."""
+
+    vs: float  # power-off 1-g stall speed, from the flight manual's lift coefficient: not flown
+    vmcg: float
+    vmca: float
+    v2_min: float
+    v2: float
+    vr: float
+
+
+def take_off_speeds(case: TakeOff, manual: FlightManual, vmcg_known: float | None = None) -> Speeds:
+    """Fly what has to be flown for them, VMCG if it is not known. VR is the case's, else a first guess of the least."""
+    stall = manual.stall_speed(case.mass, case.flaps)
+    ground = vmcg(case, manual) if vmcg_known is None else vmcg_known
+    air = vmca(case, manual)
+    least = np.fmax(V2_OVER_VSR * stall, V2_OVER_VMCA * air)
+    v2 = float(np.fmax(manual.speed("V2", case.mass), least))
+    vr = float(np.fmax(v2 - GAINED, VR_OVER_VMCA * air)) if case.vr is None else case.vr
+    return Speeds(stall, ground, air, float(least), v2, vr)
+
+
+def vmcg(case: TakeOff, manual: FlightManual) -> float:
+    """Minimum control speed on the ground, CS 25.149(e).
+
+    Flown, with brackets on the failure speed: the outer engine fails, the nose wheel is free, the path leaves the
+    line by 30 ft. The rudder is the pilot's.
+    """
+
+    def beyond(vef: float) -> float:
+        return _deviation(vef, case, manual) - DEVIATION
+
+    if beyond(SLOWEST) <= 0.0:
+        return SLOWEST
+    return float(brentq(beyond, SLOWEST, FASTEST, xtol=TOLERANCE))
+
+
+def _deviation(vef: float, case: TakeOff, manual: FlightManual) -> float:
+    """The farthest the main wheels come off the line, m, capped where the runway is left."""
+    fast = replace(case, vr=manual.flap(case.flaps).maximum_speed, crosswind=0.0)
+    pilot, plant, track = prepared(fast, Happening(vef=vef, steering=False), manual)
+
+    def over(state: State) -> bool:
+        return state.cas > vef + ROLL_ON or state.height > 1.0
+
+    try:
+        fly(pilot, plant, observers=(track,), time_limit=TIME_LIMIT, until=over)
+    except OverrunError:
+        return 2.0 * DEVIATION
+    return min(float(abs(track.flown(fast, vef).across).max()), 2.0 * DEVIATION)
+
+
+def vmca(case: TakeOff, manual: FlightManual) -> float:
+    """Minimum control speed in the air, CS 25.149(b): the slowest straight flight with full rudder and 5 deg of bank.
+
+    Flown: the outer engine fails in the take-off; once safely up the aircraft is banked towards the live engines with
+    full rudder and slowed down by pitch at take-off power. Faster than VMCA it turns towards the live engines, slower
+    towards the failed one. NaN when it stalls before.
+    """
+    vr = 1.2 * manual.stall_speed(case.mass, case.flaps)
+    climbing = replace(case, vr=vr, crosswind=0.0)
+    pilot, plant, _ = prepared(climbing, Happening(vef=vr - 1.0, v2=1.1 * vr, slow_down=True), manual)
+    seen: list[tuple[float, float, float]] = []  # time, speed, heading since full rudder was given
+
+    def over(state: State) -> bool:
+        if pilot.control.owners["rudder"] != "DIRECT" or state.height < HIGH:
+            return False
+        seen.append((state.time, state.cas, wrap(state.heading - case.heading)))
+        return bool(state.stall_warning) or (state.time > seen[0][0] + STEADY and _turn(seen) < 0.0)
+
+    try:
+        fly(pilot, plant, time_limit=TIME_LIMIT, until=over)
+    except FlightError:
+        return nan
+    return nan if plant.state().stall_warning else seen[-1][1]
+
+
+def _turn(seen: Sequence[tuple[float, float, float]]) -> float:
+    """The rate of turn over the last second, towards the live engines (right), rad/s."""
+    now = seen[-1]
+    before = next(one for one in reversed(seen) if one[0] <= now[0] - TURN_OVER)
+    return (now[2] - before[2]) / (now[0] - before[0])
