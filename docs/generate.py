@@ -117,6 +117,7 @@ def settings() -> str:
         "flap-setting": _words(setting.name for setting in manual.flaps),
         "up-down": _words(("up", "down")),
         "course": _words(("runway",)),
+        "shut-down": _words(("shut-down",)),
         "ratio": "a number, full travel is 1",
         "load": "the name of a pallet",
     }

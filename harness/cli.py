@@ -411,15 +411,22 @@ def show_list(chosen: argparse.Namespace) -> int:
 
 
 def describe(run: "Run") -> str:
-    """A completed run in a few lines."""
+    """A run that ended as its mission expects, in a few lines."""
     facts = run.summary
-    return "\n".join(
+    told = (
         (
-            f"{facts['mission']}: completed",
             f"  flight time   {facts['flight_time_s'] / 60:.1f} min",
             f"  block time    {facts['block_time_s'] / 60:.1f} min",
             f"  distance      {facts['distance_km']:.1f} km",
             f"  fuel          {facts['fuel_burned_kg']:.0f} kg",
+        )
+        if facts["completed"]
+        else (f"  {name:<28}{value:.1f}" for name, value in (facts["rejected_take_off"] or {}).items())
+    )
+    return "\n".join(
+        (
+            f"{facts['mission']}: {facts['outcome']}",
+            *told,
             f"  computed in   {facts['wall_time_s']:.1f} s, {facts['real_time_factor']:.0f} times real time",
             f"  kept in       {run.folder}",
         )

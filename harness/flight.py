@@ -41,15 +41,16 @@ def fly_mission(
     observers: Sequence[Observer] = (),
     time_limit: float = TIME_LIMIT,
     inputs: Inputs | None = None,
-) -> None:
-    """Fly `mission` from its beginning until the pilot is done.
+) -> str:
+    """Fly `mission` from its beginning until the pilot is done, and return how it ended, one of `vocabulary.OUTCOMES`.
 
     `rate` is frames a second, one of RATES; `inputs` is filled with all that is written into the simulator.
-    Raises FlightError when the mission cannot be completed.
+    Raises FlightError when the flight cannot go on.
     """
     pilot, plant = prepare(mission, manual, rate=rate, inputs=inputs)
     fly(pilot, plant, observers=observers, time_limit=time_limit)
     check_kept(plant, mission.properties)
+    return pilot.outcome
 
 
 def never(state: State) -> bool:  # noqa: ARG001  as `until` of `fly`
@@ -127,8 +128,7 @@ def prepare(
         inputs=inputs,
         preset=preset,
     )
-    chosen = [manual.configurations[name][choice] for name, choice in mission.configuration.items()]
-    configure(plant, [*chosen, *mission.properties])
+    configure(plant, [*manual.chosen(mission.configuration), *mission.properties])
     plant.use_sensors()
     return Pilot(mission, manual, departure, Ils(arrival), 1.0 / pilot_rate), plant
 

@@ -21,7 +21,10 @@ class Condition(NamedTuple):
 
 
 class Step(NamedTuple):
-    """One act of a procedure, done once all its conditions hold; `action` has its other attributes."""
+    """One act of a procedure, done once all its conditions hold; `action` has its other attributes.
+
+    It is skipped when, at its turn, one of `only_if` does not hold.
+    """
 
     name: str
     action: dict[str, str]
@@ -29,6 +32,7 @@ class Step(NamedTuple):
     file: str
     line: int
     remove: bool = False
+    only_if: tuple[Condition, ...] = ()
 
 
 class Checklist(NamedTuple):
@@ -50,6 +54,14 @@ class Named(Protocol):
     @property
     def remove(self) -> bool:
         """Whether it drops the entry of that name."""
+
+
+class Emergency(NamedTuple):
+    """What the pilot does besides the procedure of the phase, once all conditions hold."""
+
+    name: str
+    when: tuple[Condition, ...]
+    steps: tuple[Step, ...]
 
 
 class Failure(NamedTuple):

@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeVar
 
 from harness import vocabulary
 from harness.errors import InputError, did_you_mean
-from harness.plan import RELATIONS, Checklist, Condition, Failure, PhasePlan, Step
+from harness.plan import RELATIONS, Checklist, Condition, Emergency, Failure, PhasePlan, Step
 from harness.units import DEG, UnitError, parse, parse_speed, show
 from harness.xml_source import Element, Source, children
 
@@ -97,8 +97,18 @@ def read_step(source: Source, element: Element) -> Step:
             remedy='write set="gear" to="up", or mode="SPD" to="THR" speed="V2"',
         )
     conditions = tuple(_condition(source, when, name) for when in children(element, "when"))
+    only_if = tuple(_condition(source, entry, name) for entry in children(element, "if"))
     file, line = source.place(element)
-    return Step(name, attributes, conditions, file, line or 0, remove)
+    return Step(name, attributes, conditions, file, line or 0, remove, only_if)
+
+
+def read_emergency(source: Source, element: Element) -> Emergency:
+    """What an <emergency> element says, faults noted in `source`."""
+    name = element.get("name", "")
+    plan = read_phase(source, element)
+    return Emergency(
+        name, tuple(_condition(source, when, name) for when in children(element, "when")), plan.steps
+    )
 
 
 def read_failure(source: Source, element: Element) -> Failure:
@@ -156,9 +166,18 @@ def check_plans(plans: Iterable[PhasePlan], words: Words) -> Iterator[InputError
             yield InputError(what, file=plan.file, line=plan.line, remedy=remedy)
 
 
+def check_emergencies(emergencies: Iterable[Emergency], words: Words) -> Iterator[InputError]:
+    """A fault for every word of the emergencies without a meaning."""
+    for emergency in emergencies:
+        for condition in emergency.when:
+            yield from check_condition(condition, words)
+        for step in emergency.steps:
+            yield from check_step(step, words)
+
+
 def check_step(step: Step, words: Words) -> Iterator[InputError]:
     """Faults in the words of one step."""
-    for condition in step.when:
+    for condition in (*step.only_if, *step.when):
         yield from check_condition(condition, words)
     if step.remove:
         return
@@ -212,6 +231,7 @@ def _check_setting(action: dict[str, str], words: Words) -> None:
         "up-down": frozenset(_POSITIONS),
         "course": frozenset({"runway"}),
         "load": words.loads,
+        "shut-down": frozenset({"shut-down"}),
     }
     if kind in choices:
         _known(action["to"], dict.fromkeys(choices[kind], ""), f"a position of {action['set']}")

@@ -13,7 +13,9 @@ from harness.log import Event, FlightLog, Inputs, Reporter, Run, RunFolder, conc
 from harness.manual import FlightManual, read_manual
 from harness.mission.check import check_file
 from harness.mission.model import Mission
+from harness.navigation.database import load
 from harness.state import Commands, State
+from harness.vocabulary import OUTCOMES
 
 if TYPE_CHECKING:  # at run time only when flying: it brings JSBSim along
     from harness.flight import Observer
@@ -92,12 +94,15 @@ class Session:
             *([Pace()] if realtime else []),
         ]
         stopped: FlightError | KeyboardInterrupt | None = None
+        outcome = "stopped"
         begin = time.perf_counter()
         try:
-            fly_mission(self.mission, self.manual, rate=rate, observers=observers, inputs=inputs)
+            outcome = fly_mission(self.mission, self.manual, rate=rate, observers=observers, inputs=inputs)
         except (FlightError, KeyboardInterrupt) as error:
             stopped = error
         wall_time = time.perf_counter() - begin
+        if outcome not in ("stopped", self.mission.expects):
+            stopped = _unexpected(outcome, self.mission.expects, log)
         reason = "" if stopped is None else str(stopped) or "interrupted from the keyboard"
         run = conclude(
             log,
@@ -107,8 +112,15 @@ class Session:
             last_waypoint=[leg.name for leg in self.mission.legs if leg.part == "route"][-1],
             mission_text=self.mission.text,
             wall_time=wall_time,
-            failure=reason,
+            outcome=outcome,
+            reason=reason,
         )
+        if outcome == OUTCOMES["RTO"]:
+            from harness.analysis.rejected import rejected_take_off
+
+            departure = self.mission.departure
+            runway = load().runway(departure.airport, departure.runway)
+            run.summary["rejected_take_off"] = rejected_take_off(run, runway)
         return run, stopped
 
     def _identity(self, rate: int) -> dict[str, object]:
@@ -121,3 +133,17 @@ class Session:
             "frame_rate_hz": rate,
             "seed": None,
         }
+
+
+def _unexpected(outcome: str, expected: str, log: FlightLog) -> FlightError:
+    """The error for a flight that came to an end, but not to the one that its mission expects."""
+    phases = [event for event in log.events if event.kind == "phase"]
+    return FlightError(
+        f"the flight ended with: {outcome}",
+        time=phases[-1].time,
+        phase=phases[-1].name,
+        waiting="the end of the mission",
+        required=expected,
+        achieved=f"{outcome}, because of: {phases[-2].reason}",
+        knob=f'write expects="{outcome}" into <mission> where this is what the flight is for',
+    )

@@ -8,13 +8,8 @@ from typing import NamedTuple
 
 
 @dataclass(slots=True)
-class State:
-    """The aircraft as the pilot sees it: live, renewed in place by the plant. What is to be kept must be copied.
-
-    Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres. On and just above
-    the runway a plant renews all fields at every pilot step; elsewhere those of FAST, those of MEDIUM every
-    MEDIUM_PERIOD steps (2 Hz) and the others every SLOW_PERIOD (1 Hz).
-    """
+class Motion:
+    """What of a State is renewed whenever the pilot's outer loops turn; the first three at every pilot step."""
 
     time: float  # simulated time since the first frame, s
     vertical_speed: float  # m/s, up
@@ -30,10 +25,22 @@ class State:
     velocity_east: float
     heading: float  # true
     roll: float  # right wing down
+    main_on_ground: float  # 0 or 1
+    engines_failed: float  # without combustion: 1 for engine 1, 2, 4, 8 for the others, summed
+    yaw_rate: float  # body axes, rad/s
+
+
+@dataclass(slots=True)
+class State(Motion):
+    """The aircraft as the pilot sees it: live, renewed in place by the plant. What is to be kept must be copied.
+
+    Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres. A plant renews
+    time, vertical speed and pitch at every pilot step, all of Motion `rest` steps after it did so, and the other fields
+    twelve times a second on and just above the runway, once a second elsewhere.
+    """
+
     load_factor: float  # normal, 1 in level flight
     stall_warning: float  # 0 or 1
-    main_on_ground: float  # 0 or 1
-    yaw_rate: float  # body axes, rad/s
     mass: float  # kg
     fuel: float  # kg
     fuel_used: float  # kg, the integral of the fuel flow over every frame
@@ -63,10 +70,11 @@ class State:
 FIELDS: tuple[str, ...] = tuple(field.name for field in fields(State))
 values: Callable[[State], tuple[float, ...]] = attrgetter(*FIELDS)
 """The numbers of a State, in the order of FIELDS."""
-FAST = FIELDS[:3]
-MEDIUM = FIELDS[3:21]
-MEDIUM_PERIOD = 12  # pilot steps
+MOTION: tuple[str, ...] = tuple(field.name for field in fields(Motion))
+MEDIUM_PERIOD = 12  # pilot steps: 2 Hz
 SLOW_PERIOD = 24
+STEADY_CLIMB = 1.0  # m/s
+STEADY_BANK = 0.02  # rad
 LOW = 100.0  # m above the ground
 BRISK = 15.0  # m/s: faster than taxiing
 
@@ -74,6 +82,23 @@ BRISK = 15.0  # m/s: faster than taxiing
 def close_to_ground(height: float, cas: float) -> bool:
     """Whether everything has to be watched at every pilot step: on and just above the runway."""
     return height < LOW and cas > BRISK
+
+
+def rest(state: Motion, step: int) -> int:
+    """Pilot steps from `step` until the outer loops turn and Motion is renewed again.
+
+    1 near the runway, else to the next multiple of a second in steady level flight, of half a second elsewhere: the log
+    records on multiples too, and so never an older position than its time.
+    """
+    period = MEDIUM_PERIOD
+    if state.height < LOW:
+        if state.cas > BRISK:
+            return 1
+    elif -STEADY_BANK < state.roll < STEADY_BANK and -STEADY_CLIMB < state.vertical_speed < STEADY_CLIMB:
+        period = SLOW_PERIOD
+    return (
+        1 if step % 2 else period - step % period
+    )  # close to the ground a record is made at every second step
 
 
 class Commands(NamedTuple):
@@ -101,6 +126,7 @@ class Commands(NamedTuple):
     crossfeed: float = 0.0  # 1: all crossfeed valves open
     ramp: float = 0.0  # 0 closed .. 1 open
     release: float = 0.0  # number of the load to go, in the order of `Mission.released`
+    shut_down: float = 0.0  # engines whose fuel is cut: 1 for engine 1, 2, 4, 8 for the others, summed
 
 
 new_commands: Callable[[Iterable[float]], Commands] = partial(tuple.__new__, Commands)

@@ -51,10 +51,18 @@ EDGES: tuple[tuple[str, str], ...] = (
     ("LDG.flare", "LDG.roll-out"),
     ("LDG.roll-out", "TXY.in"),
     ("M/A", "ENR.CLB"),
+    ("M/A", "END"),
     ("TXY.in", "END"),
     ("RTO", "END"),
 )
 """The edges of the phase graph (Fig. 4, with the sub-phases of Fig. 6 and the RTO and M/A branches)."""
+
+OUTCOMES: dict[str, str] = {
+    "TXY.in": "completed",
+    "RTO": "rejected take-off",
+    "M/A": "missed approach",
+}
+"""How a flight may end, by the phase that leads to END."""
 
 QUANTITIES: dict[str, str] = {
     "time": "time",
@@ -70,6 +78,7 @@ QUANTITIES: dict[str, str] = {
     "flap": "ratio",
     "gear": "ratio",
     "propeller-speed": "angular-speed",
+    "engines-failed": "count",
     "main-gear-on-ground": "yes-no",
     "nose-gear-on-ground": "yes-no",
     "level-above": "length",
@@ -80,6 +89,7 @@ QUANTITIES: dict[str, str] = {
     "distance-to-waypoint": "length",
     "distance-to-threshold": "length",
     "distance-past-threshold": "length",
+    "approaches-missed": "count",
     "localizer-captured": "yes-no",
     "localizer-dots": "ratio",
     "glide-slope-dots": "ratio",
@@ -90,7 +100,8 @@ QUANTITIES: dict[str, str] = {
 }
 """What a condition can look at, with its kind of unit.
 
-`level-above` is how far the wanted level lies above the aircraft, `level-below` the opposite.
+`engines-failed` counts those the pilot knows of. `level-above` is how far the wanted level lies above the aircraft,
+`level-below` the opposite.
 """
 
 TARGETS: dict[str, str] = {"leg-speed": "speed"}
@@ -110,15 +121,19 @@ SETTINGS: dict[str, str] = {
     "crossfeed": "ratio",
     "ramp": "ratio",
     "release": "load",
+    "failed-engines": "shut-down",
 }
-"""What a procedure step can set, with the kind of value. A course is `runway`, a load the name of a pallet."""
+"""What a procedure step can set, with the kind of value.
+
+A course is `runway`, a load the name of a pallet, failed engines are `shut-down`.
+"""
 
 CONTROLS: tuple[str, ...] = ("thrust", "elevator", "aileron", "rudder", "steering")
 """Controls of the CTRL super-mode; each is DIRECT (the pilot's hand) or CONTROLLER."""
 
 
 INNER_MODES: tuple[str, ...] = ("PM", "RM", "LM")
-"""The inner modes: pitch, roll and directional loops of the aircraft that are engaged; OFF if none is."""
+"""The inner modes: the pilot's pitch, roll and directional loops at work; OFF if none is, as with full fly-by-wire."""
 
 
 class Argument(NamedTuple):

@@ -14,6 +14,7 @@ Floats = NDArray[np.float64]
 
 LOW = 300.0  # m
 BOUNCE = 5.0
+RELEASED = 0.01  # brakes less than this hold nothing
 """Wheels that touch again this soon after leaving the ground, s, have bounced: no other touchdown."""
 
 
@@ -145,7 +146,7 @@ class FlightLog:
 
     def _brakes(self, state: State, commands: Commands, pilot: Reporter) -> None:
         self._brake = commands.brake
-        if commands.brake == 0.0:
+        if commands.brake < RELEASED:
             self.moments.setdefault("off blocks", copy(state))
             if pilot.phase.startswith("T/O"):
                 self.moments.setdefault("brake release", copy(state))

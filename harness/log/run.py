@@ -22,7 +22,7 @@ _STATE_UNITS = {
     "kg/s": "fuel_flow",
     "Pa": "pressure",
     "K": "temperature",
-    "1": "mach load_factor main_on_ground nose_on_ground flap gear stall_warning"
+    "1": "mach load_factor main_on_ground nose_on_ground flap gear stall_warning engines_failed"
     " greatest_load_factor least_load_factor stall_warned",
 }
 _OTHER_UNITS = {
@@ -42,8 +42,8 @@ UNITS = {
 class Event(NamedTuple):
     """Something that happened: at `time` (s), in `phase`, and why.
 
-    `kind` is phase, checklist, procedure, mode, waypoint, failure or limit; `name` says which one, `detail` what a step
-    did.
+    `kind` is phase, checklist, procedure, mode, waypoint, failure, limit, warning, emergency or navigation; `name` says
+    which one, `detail` what a step did.
     """
 
     time: float

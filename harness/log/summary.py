@@ -28,20 +28,25 @@ def conclude(
     last_waypoint: str,
     mission_text: str,
     wall_time: float,
-    failure: str,
+    outcome: str,
+    reason: str,
 ) -> Run:
     """Make the run out of what was recorded, and of what was written into the simulator.
 
     `identity` goes into the summary as it is; `fixes` are the waypoints' latitudes and longitudes (rad),
     `last_waypoint` is the name of the route's last one, before the arrival;
-    `wall_time` is in seconds; `failure` says why the flight was not completed, empty if it was.
+    `wall_time` is in seconds; `outcome` is one of `vocabulary.OUTCOMES`, or "stopped" for a flight that could not go
+    on; `reason` says why the flight did not end as expected, empty if it did.
     """
     history = log.history()
     passages = _passages(log, history, fixes)
     simulated = float(history["time"][-1]) if len(history["time"]) else 0.0
-    summary: dict[str, Any] = {"schema": SCHEMA, **identity, "completed": not failure, "reason": failure}
+    completed = outcome == "completed"
+    summary: dict[str, Any] = {"schema": SCHEMA, **identity, "completed": completed, "outcome": outcome}
+    summary["reason"] = reason
     last = [passage for passage in passages if passage.name == last_waypoint]
-    summary |= _flight(log, history, last, completed=not failure)
+    summary |= _flight(log, history, last, completed=completed)
+    summary["rejected_take_off"] = None
     summary["phases"] = _phases(log.events, history)
     summary |= {
         "simulated_time_s": simulated,

@@ -8,7 +8,7 @@ from typing import NamedTuple, Protocol
 
 from harness.errors import InputError, did_you_mean
 from harness.loading.envelope import Envelope
-from harness.plan import PhasePlan
+from harness.plan import Emergency, PhasePlan
 from harness.units import G0, Quantity, Speed
 from harness.world.atmosphere import SEA_LEVEL_DENSITY
 
@@ -33,12 +33,16 @@ class SpeedRule(NamedTuple):
 
 
 class PropertySetting(NamedTuple):
-    """What a word of the mission does to the aircraft: `property` of the simulator is put to `value`."""
+    """What a word of the mission does to the aircraft: `property` of the simulator is put to `value`.
+
+    With `inner_modes` it leaves holding attitudes to the pilot's inner modes.
+    """
 
     property: str
     value: float
     file: str
     line: int | None
+    inner_modes: bool = False
 
 
 class Numbers(dict[str, float]):
@@ -89,6 +93,7 @@ class FlightManual:
     configurations: Mapping[str, Mapping[str, PropertySetting]] = field(default_factory=dict)
     failures: Mapping[str, PropertySetting] = field(default_factory=dict)
     balance: Envelope | None = None
+    emergencies: tuple[Emergency, ...] = ()
 
     def flap(self, name: str) -> FlapSetting:
         """The flap setting of that name. Raises InputError."""
@@ -113,6 +118,10 @@ class FlightManual:
         if rule.cas is not None:
             return rule.cas
         return rule.stall_ratio * self.stall_speed(mass, rule.flaps) + rule.plus
+
+    def chosen(self, configuration: Mapping[str, str]) -> list[PropertySetting]:
+        """What a mission's choices do to the aircraft."""
+        return [self.configurations[name][choice] for name, choice in configuration.items()]
 
     def with_mission(self, mission: Changes) -> "FlightManual":
         """This manual with the mission's speeds, gains and phases in place of its own."""

@@ -7,7 +7,7 @@ from harness import resources
 from harness.errors import InputError, InputErrors, did_you_mean
 from harness.loading.envelope import read_envelope
 from harness.manual.model import FlapSetting, FlightManual, Numbers, PropertySetting, SpeedRule
-from harness.plan_reader import Words, check_plans, read_phase
+from harness.plan_reader import Words, check_emergencies, check_plans, read_emergency, read_phase
 from harness.units import Quantity, UnitError, parse, parse_any, parse_quantity, parse_speed
 from harness.xml_source import NAN, Element, Source, children
 
@@ -76,9 +76,17 @@ def read_manual(aircraft: str | Path) -> FlightManual:
             for element in _entries(source, "failures", needed=False)
         },
         balance=None if balance is None else read_envelope(source, balance),
+        emergencies=tuple(
+            read_emergency(source, element) for element in _entries(source, "emergencies", needed=False)
+        ),
     )
     source.finish()
-    faults = [*_cross_references(manual, source), *check_plans(manual.phases.values(), words_of(manual))]
+    words = words_of(manual)
+    faults = [
+        *_cross_references(manual, source),
+        *check_plans(manual.phases.values(), words),
+        *check_emergencies(manual.emergencies, words),
+    ]
     if faults:
         raise InputErrors(faults)
     return manual
@@ -187,7 +195,11 @@ def _choices(source: Source, element: Element) -> dict[str, PropertySetting]:
 def _property_setting(source: Source, element: Element) -> PropertySetting:
     file, line = source.place(element)
     return PropertySetting(
-        element.get("property", ""), source.quantity(element, "value", "ratio"), file, line or 0
+        element.get("property", ""),
+        source.quantity(element, "value", "ratio"),
+        file,
+        line or 0,
+        element.get("inner-modes") == "yes",
     )
 
 

@@ -136,8 +136,9 @@ class Mission:
 
     `speeds`, `gains` and `phases` change the flight manual for this mission only. `configuration` has the choice made
     for each configuration of the manual that is not left as it is; `properties` are numbers of the aircraft's own that
-    are other for this flight, in JSBSim's units. `text` is the mission as flown, with
-    its variants and overrides applied. `places` tells where each part was written (file, line), by its path.
+    are other for this flight, in JSBSim's units. `expects` is the outcome that is no failure. `text` is the mission as
+    flown, with its variants and overrides applied. `places` tells where each part was written (file, line), by its
+    path.
     """
 
     name: str
@@ -156,6 +157,7 @@ class Mission:
     properties: tuple[PropertySetting, ...] = ()
     configuration: dict[str, str] = field(default_factory=dict)
     failures: tuple[Failure, ...] = ()
+    expects: str = "completed"
     places: dict[str, tuple[str, int | None]] = field(default_factory=dict, compare=False)
 
     @property

@@ -112,6 +112,7 @@ class _Reader:
             properties=self._properties(aircraft),
             configuration={} if configuration is None else _words(configuration),
             failures=self._failures(self.source.one(root, "failures", needed=False)),
+            expects=root.get("expects", "completed"),
             source_path=self.source.path,
             text=etree.tostring(root.getroottree(), encoding="unicode"),
             places=self._places(),

@@ -7,11 +7,15 @@ from harness.manual import FlightManual, words_of
 from harness.mission.model import Mission
 from harness.plan import Condition, PhasePlan, Step
 from harness.plan_reader import Words, check_condition, check_plans, check_step
-from harness.vocabulary import PHASES
+from harness.vocabulary import OUTCOMES, PHASES
 
 
 def word_faults(mission: Mission, manual: FlightManual) -> Iterator[InputError]:
     """A fault for every word of the mission that the flight manual does not know."""
+    if mission.expects not in OUTCOMES.values():
+        file, line = mission.place("expects")
+        what = f'no flight ends with "{mission.expects}"'
+        yield InputError(what, file=file, line=line, remedy=did_you_mean(mission.expects, OUTCOMES.values()))
     yield from _gains(mission, manual)
     yield from _configuration(mission, manual)
     yield from _failures(mission, manual)

@@ -18,6 +18,7 @@ class Cockpit(Protocol):
 
     phase_begin: float
     level_error: float
+    approaches: int
 
     @property
     def route(self) -> NavigationComputer:
@@ -55,6 +56,7 @@ MEASURES: Mapping[str, Callable[[Cockpit], Number]] = {
     "flap": lambda pilot: lambda state: state.flap,
     "gear": lambda pilot: lambda state: state.gear,
     "propeller-speed": lambda pilot: lambda state: state.propeller_speed,
+    "engines-failed": lambda pilot: lambda state: pilot.control.failed_engines.bit_count(),
     "main-gear-on-ground": lambda pilot: lambda state: state.main_on_ground,
     "nose-gear-on-ground": lambda pilot: lambda state: state.nose_on_ground,
     "level-above": lambda pilot: lambda state: pilot.level_error,
@@ -65,6 +67,7 @@ MEASURES: Mapping[str, Callable[[Cockpit], Number]] = {
     "distance-to-waypoint": lambda pilot: lambda state: pilot.route.remaining,
     "distance-to-threshold": lambda pilot: lambda state: pilot.route.distance_to_threshold,
     "distance-past-threshold": lambda pilot: lambda state: pilot.control.runway.offset(state)[0],
+    "approaches-missed": lambda pilot: lambda state: pilot.approaches,
     "localizer-captured": lambda pilot: lambda state: float(abs(pilot.route.localizer.dots) < 1.0),
     "localizer-dots": lambda pilot: lambda state: abs(pilot.route.localizer.dots),
     "glide-slope-dots": lambda pilot: lambda state: pilot.route.glide_slope.dots,

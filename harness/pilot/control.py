@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from harness.manual import FlightManual
 from harness.navigation.database import Runway
-from harness.numerics import approach, clamp, quantised
+from harness.numerics import LowPass, approach, clamp, quantised
 from harness.pilot.ground import Centreline, GroundSteering, TaxiPath
 from harness.pilot.modes.horizontal import HorizontalMode
 from harness.pilot.modes.speed import SpeedMode
@@ -50,14 +50,18 @@ class ControlSystem:
         runway: Runway,
         step: float,
         loads: Sequence[str] = (),
+        *,
+        inner_modes: bool = False,
     ) -> None:
         """`runway` is the one in use at the beginning; `step` the time between two pilot steps, s.
 
-        `loads` are the names of what can be released, in the order of their numbers, from 1.
+        `loads` are the names of what can be released, in the order of their numbers, from 1. `inner_modes`: the
+        aircraft's flight control leaves holding attitudes to the pilot.
         """
         gains = manual.gains
         self.manual = manual
         self.route = route
+        self._inner_modes = inner_modes
         self.speed = SpeedMode(gains)
         self.vertical = VerticalMode(gains, step)
         self.horizontal = HorizontalMode(gains)
@@ -65,6 +69,7 @@ class ControlSystem:
         self.runway = Centreline(runway)
         self.target_cas = 0.0  # m/s
         self.taxi_distance = inf  # to the end of the taxi path, m
+        self.failed_engines = 0  # those the pilot knows of, as State.engines_failed
         self._steering = GroundSteering(gains)
         self._settings = Commands()
         self._loads = {name: float(number) for number, name in enumerate(loads, 1)}
@@ -75,6 +80,8 @@ class ControlSystem:
         self._speed_value = 0.0
         self._climb_lever = manual.thrust["climb"]
         self._taxi_gains = TaxiGains(*(gains[f"taxi-{name.replace('_', '-')}"] for name in TaxiGains._fields))
+        lag = gains["neuromuscular-lag"]
+        self._limbs = [LowPass(lag) for _ in range(4)] if lag else []
         self._bank = self._wheel = self._rudder = self._coordinate = 0.0
 
     # What procedures do.
@@ -93,6 +100,8 @@ class ControlSystem:
             self._settings = self._settings._replace(release=self._loads[to])
         elif name == "course":
             self.horizontal.track = self.runway.heading
+        elif name == "failed-engines":
+            self._settings = self._settings._replace(shut_down=float(self.failed_engines))
         else:
             self._settings = self._settings._replace(**{_FIELDS.get(name, name): parse(to, "ratio")})
 
@@ -181,7 +190,10 @@ class ControlSystem:
         vertical, detail = self.vertical, self.vertical.guidance
         if vertical.sub_mode == "PATH":
             detail = "V/S" if vertical.vertical_speed is not None else str(vertical.angle)
-        inner = [self.owners[control] == "CONTROLLER" for control in ("elevator", "aileron", "rudder")]
+        inner = [
+            self._inner_modes and self.owners[control] == "CONTROLLER"
+            for control in ("elevator", "aileron", "rudder")
+        ]
         return {
             "CTRL": f"direct: {' '.join(direct)}" if direct else "controller",
             "INN": " ".join(name for name, on in zip(INNER_MODES, inner, strict=True) if on) or "OFF",
@@ -208,17 +220,28 @@ class ControlSystem:
             speed.update(state, self.target_cas, self.vertical.path_angle, dt)
         self.vertical.aim(state, level_error, route.glide_slope, route.distance_to_threshold, path)
         self._steer(state, dt)
+        if self._limbs:
+            for limb, wanted in zip(self._limbs, self._by_hand(), strict=True):
+                limb.update(wanted, dt)
+
+    def _by_hand(self) -> tuple[float, float, float, float]:
+        """What hands and feet are to do: thrust lever, rudder, nose wheel, brakes."""
+        brake = self._taxi_brake if self._taxiing else self._settings.brake
+        return self.speed.lever, self._rudder, self._wheel, brake
 
     def command(self, pitch: float) -> Commands:
         """All commands, with the pitch attitude that `vertical.fly` asks for."""
         settings, owners = self._settings, self.owners
+        lever, rudder, wheel, brake = self._by_hand()
+        if self._limbs:
+            lever, rudder, wheel, brake = (quantised(limb.value) for limb in self._limbs)
         return Commands(
-            self.speed.lever,
+            lever,
             pitch,
             self._bank,
-            self._rudder,
-            self._wheel,
-            self._taxi_brake if self._taxiing else settings.brake,
+            rudder,
+            wheel,
+            brake,
             float(owners["elevator"] == "CONTROLLER"),
             settings.elevator,
             float(owners["aileron"] == "CONTROLLER"),
@@ -231,6 +254,7 @@ class ControlSystem:
             settings.crossfeed,
             settings.ramp,
             settings.release,
+            settings.shut_down,
         )
 
     def _steer(self, state: State, dt: float) -> None:

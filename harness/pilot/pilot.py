@@ -2,9 +2,8 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from math import inf, nan
-from typing import NamedTuple
 
-from harness.errors import FlightError, StuckError
+from harness.errors import StuckError
 from harness.log.run import Event
 from harness.manual import FlightManual
 from harness.mission.model import Leg, Mission
@@ -13,24 +12,21 @@ from harness.numerics import wrap
 from harness.pilot.balance import BalanceWatch
 from harness.pilot.checklist import Item, OpenChecklist, item, prepared
 from harness.pilot.control import ControlSystem
+from harness.pilot.go_around import circuit
 from harness.pilot.machine import END, START, PhaseGraph
+from harness.pilot.procedure import SAME_MOMENT, Procedure, ReadyStep
 from harness.pilot.route import NavigationComputer
-from harness.plan import Step
-from harness.state import MEDIUM_PERIOD, Commands, State, close_to_ground, new_commands
+from harness.plan import Emergency, Step
+from harness.state import Commands, State, new_commands, rest
+from harness.units import show
+from harness.vocabulary import OUTCOMES
 
 FAST = frozenset({"time", "time-in-phase", "vertical-speed", "pitch"})
 """Quantities renewed at every pilot step; what waits for another one is read when the outer loops turn."""
-ROUTE_TURNS = 4  # turns of the outer loops between two looks at the route, far from the next waypoint
+ROUTE_PERIOD = 48  # pilot steps between two looks at the route, far from the next waypoint
 NEAR_WAYPOINT = 15000.0  # m: more than the lead of any turn
 LEVEL_REACHED = 30.0  # m: a level this near is captured however slowly it is approached
 DEFAULT_TIME_LIMIT = 7200.0  # s in one phase, where the manual says nothing
-
-
-class _ReadyStep(NamedTuple):
-    """A procedure step with its conditions looked up."""
-
-    step: Step
-    when: tuple[Item, ...]
 
 
 class Pilot:
@@ -47,28 +43,39 @@ class Pilot:
             mission.legs, departure, arrival, mission.environment.qnh, manual.gains["bank-limit"]
         )
         self.route.on_passage = self._passed
-        self.control = ControlSystem(manual, self.route, departure, step, mission.released)
+        self.route.on_reception = self._heard
+        inner_modes = any(setting.inner_modes for setting in manual.chosen(mission.configuration))
+        self.control = ControlSystem(
+            manual, self.route, departure, step, mission.released, inner_modes=inner_modes
+        )
         self._fly = self.control.vertical.fly
         self.phase = START
         self.phase_begin = 0.0
-        self._entered_because = ""
-        self.done = False  # the mission is complete
+        self.done = False
+        self.approaches = 0  # that were missed
+        self.outcome = ""  # how the flight ended, one of OUTCOMES
         self.level_error = 0.0  # height of the wanted level above the aircraft, m
         self.modes: Mapping[str, str] = self.control.modes
         self.listeners: list[Callable[[Event], None]] = []
         self._balance = BalanceWatch(manual.balance)
         self._graph = PhaseGraph()
         self._arrival: Runway | None = arrival.runway  # until it is in use
-        self._pending: list[_ReadyStep] = []
+        self._procedures: list[Procedure] = [Procedure((), self, 0.0, 0.0)]  # of the phase, of emergencies
+        self._emergencies: list[tuple[Emergency, tuple[Item, ...]]] = []  # that have not come up
+        self._recognition_time = manual.gains["recognition-time"]
+        self._reaction_time = manual.gains["reaction-time"]
+        self._warning = 0.0  # engines that show as failed
+        self._warned_at = 0.0
         self._checklists: Sequence[OpenChecklist] = ()
         self._deadline = inf
         self._airborne_route = False
         self._approaching = False
         self._on_runway = False
         self._alert = False  # something waited for changes at every step
-        self._countdown = 1  # pilot steps until the outer loops turn
+        self._steps = -1  # of the pilot
+        self._turn = 0  # the step at which the outer loops turn
         self._period = 1
-        self._route_turns = 0
+        self._route_rest = 0
         self._commands = Commands()
         self._state: State | None = None
 
@@ -106,8 +113,8 @@ class Pilot:
 
         Raises StuckError when a phase lasts too long, OverrunError when the runway has been left.
         """
-        self._countdown -= 1
-        if self._countdown > 0 and not self._alert:
+        self._steps += 1
+        if self._steps < self._turn and not self._alert:
             commands = self._commands
             pitch = self._fly(state.vertical_speed, state.pitch)
             if pitch != commands.pitch:
@@ -116,15 +123,9 @@ class Pilot:
         return self._act_fully(state)
 
     def _act_fully(self, state: State) -> Commands:
-        outer = self._countdown <= 0
+        outer = self._steps >= self._turn
         if outer:
-            begun, self._state = self._state is not None, state
-            if not begun:
-                self._enter(START, state, "start of the mission")
-            self._navigate(state)
-            self.level_error = self.route.level - state.pressure_altitude
-            if balance := self._balance.change(state):
-                self._note("limit", "centre of gravity", balance)
+            self._look_around(state)
         for checklist in self._checklists:
             if checklist.complete(state):
                 self._proceed(checklist, state)
@@ -132,23 +133,45 @@ class Pilot:
         else:
             if state.time > self._deadline:
                 self._give_up(state)
-        while self._pending and all(entry.holds(state) for entry in self._pending[0].when):
-            self._carry_out(self._pending.pop(0), state)
-            self._watch()
+        for procedure in self._procedures:
+            while procedure.steps and (ready := procedure.due(state)) is not None:
+                self._carry_out(ready, state)
+                self._watch()
         if outer:
-            period = 1 if close_to_ground(state.height, state.cas) else MEDIUM_PERIOD
             self.control.turn_outer_loops(state, self.level_error, self._period * self.step)
             if state.main_on_ground and self._on_runway:
                 self.control.runway.check(state, self.phase)
-            self._countdown = self._period = period
+            self._period = rest(state, self._steps)
+            self._turn = self._steps + self._period
         self._commands = self.control.command(self._fly(state.vertical_speed, state.pitch))
         return self._commands
+
+    def _look_around(self, state: State) -> None:
+        """Renew what is known of route, level and engines."""
+        if self._state is None:
+            self._state = state
+            self._emergencies = [
+                (emergency, tuple(item(condition, self, state.mass) for condition in emergency.when))
+                for emergency in self.manual.emergencies
+            ]
+            self._enter(START, state, "start of the mission")
+        self._navigate(state)
+        self.level_error = self.route.level - state.pressure_altitude
+        if balance := self._balance.change(state):
+            self._note("limit", "centre of gravity", balance)
+        if state.engines_failed != self.control.failed_engines:
+            self._recognise(state)
+        for emergency, when in self._emergencies:
+            if all(entry.holds(state) for entry in when):
+                self._declare(emergency, when, state)
+                break
 
     def _watch(self) -> None:
         """Note whether anything waited for changes faster than the outer loops turn."""
         waited = [entry for checklist in self._checklists for entry in checklist.items]
-        if self._pending:
-            waited.extend(self._pending[0].when)
+        for procedure in self._procedures:
+            if procedure.steps:
+                waited.extend(procedure.steps[0].when)
         self._alert = any(entry.condition.quantity in FAST for entry in waited)
 
     # What conditions measure.
@@ -164,7 +187,7 @@ class Pilot:
 
     # Procedures.
 
-    def _carry_out(self, ready: _ReadyStep, state: State) -> None:
+    def _carry_out(self, ready: ReadyStep, state: State) -> None:
         conditions = [f"{item.achieved(state)}, {item.wanted(state)}" for item in ready.when]
         at_once = state.time == self.phase_begin
         otherwise = f"on entering {self.phase}" if at_once else "after the step before it"
@@ -192,13 +215,8 @@ class Pilot:
         for entry in checklist.items:
             reason = f"{entry.achieved(state)}, {entry.wanted(state)}"
             self._note("checklist", entry.condition.name, reason)
-        if self.phase == "RTO":
-            raise FlightError(
-                "the take-off was rejected, the aircraft has stopped",
-                time=state.time,
-                phase=self.phase,
-                knob=self._entered_because,
-            )
+        if checklist.to == END:
+            self.outcome = OUTCOMES[self.phase]
         self._graph.enter(checklist.to)
         names = ", ".join(entry.condition.name for entry in checklist.items)
         self._enter(checklist.to, state, names)
@@ -207,7 +225,6 @@ class Pilot:
         self.phase = phase
         self.done = phase == END
         self.phase_begin = state.time
-        self._entered_because = reason
         self._note("phase", phase, reason)
         self._airborne_route = phase.startswith(("DEP", "ENR", "M/A", "APP"))
         self._approaching = phase.startswith(("APP", "LDG"))
@@ -215,18 +232,18 @@ class Pilot:
         if self._approaching and self._arrival is not None:
             self.control.use_runway(self._arrival)
             self._arrival = None
+        if phase == "M/A":
+            self.approaches += 1
+            if self.approaches == 1:
+                self.route.fly(circuit(self.route.runway, self.manual.speed("VCLEAN", state.mass)))
         if phase.startswith("TXY"):
             self._plan_taxi(phase, state)
         plan = self.manual.phases.get(phase)
-        self._pending = []
         self._checklists = ()
         self._deadline = state.time + self.manual.gains.get(f"time-limit {phase}", DEFAULT_TIME_LIMIT)
         self.level_error = self.route.level - state.pressure_altitude
         if plan is not None:
-            self._pending = [
-                _ReadyStep(step, tuple(item(when, self, state.mass) for when in step.when))
-                for step in plan.steps
-            ]
+            self._procedures[0] = Procedure(plan.steps, self, state.mass, self._reaction_time)
             self._checklists = [prepared(checklist, self, state.mass) for checklist in plan.checklists]
         self._watch()
 
@@ -258,18 +275,53 @@ class Pilot:
             if self._state is not None:
                 self._do(step, self._state, f"at waypoint {leg.name}")
 
+    def _heard(self, leg: Leg, received: bool) -> None:
+        ident = leg.fix.station.ident if leg.fix.station else leg.name
+        if received:
+            self._note("navigation", f"{ident} received", f"within line of sight, on the leg to {leg.name}")
+        else:
+            reason = f"beyond the horizon; dead reckoning on the leg to {leg.name}"
+            self._note("navigation", f"{ident} out of range", reason)
+
     def _navigate(self, state: State) -> None:
         if self._approaching:
             self.route.update_approach(state)
         elif self._airborne_route:
             if self.route.waypoints_remaining:
                 # Far from a waypoint nothing on the route changes fast.
-                self._route_turns -= 1
-                if self._route_turns <= 0 or self.route.remaining < NEAR_WAYPOINT:
-                    self._route_turns = ROUTE_TURNS
+                self._route_rest -= self._period
+                if self._route_rest <= 0 or self.route.remaining < NEAR_WAYPOINT:
+                    self._route_rest = ROUTE_PERIOD
                     self.route.update(state)
             else:
                 self.route.update_approach(state)
+
+    # Emergencies.
+
+    def _recognise(self, state: State) -> None:
+        """Take in, some time after it shows, that an engine has failed, or runs again."""
+        control = self.control
+        if state.engines_failed != self._warning:
+            self._warning, self._warned_at = state.engines_failed, state.time
+        if state.time - self._warned_at < self._recognition_time - SAME_MOMENT:
+            return
+        changed = int(self._warning) ^ control.failed_engines
+        control.failed_engines = int(self._warning)
+        for engine in range(changed.bit_length()):
+            if changed >> engine & 1:
+                word = "failed" if control.failed_engines >> engine & 1 else "runs again"
+                reason = f"recognised {state.time - self._warned_at:.2f} s after the warning"
+                self._note(
+                    "warning", f"engine {engine + 1} {word}", f"{reason}, at {show(state.cas, 'kt', 1)}"
+                )
+
+    def _declare(self, emergency: Emergency, when: tuple[Item, ...], state: State) -> None:
+        """Begin the procedure of an emergency, besides that of the phase."""
+        self._emergencies.remove((emergency, when))
+        reason = "; ".join(f"{entry.achieved(state)}, {entry.wanted(state)}" for entry in when)
+        self._note("emergency", emergency.name, reason)
+        self._procedures.append(Procedure(emergency.steps, self, state.mass, self._reaction_time))
+        self._watch()
 
     def _note(self, kind: str, name: str, reason: str, detail: str = "") -> None:
         self.tell(Event(self._state.time if self._state else 0.0, kind, name, self.phase, reason, detail))

@@ -50,6 +50,11 @@ class NavigationComputer:
         self.leg: Leg
         self.level: float  # wanted, as pressure altitude, m
         self.on_passage: Callable[[Leg], None] = lambda leg: None
+        self.on_reception: Callable[[Leg, bool], None] = lambda leg, received: None
+        self._horizon = (
+            inf  # of the station the leg needs, m: inf if it needs none, or one below the horizon too
+        )
+        self._received = True
         self._turn_bank = turn_bank
         self._altimeter_setting = pressure_altitude(qnh)
         self._take(legs[0])
@@ -65,6 +70,15 @@ class NavigationComputer:
         self.localizer = receivers.NeedleReading(0.0, 0.0, False)
         self.glide_slope = receivers.NeedleReading(0.0, 0.0, False)
         self.distance_to_threshold = inf
+
+    def fly(self, legs: Sequence[Leg]) -> None:
+        """Follow other legs from now on, as after a missed approach."""
+        self.legs = legs
+        self.index = 0
+        self.waypoints_remaining = len(legs)
+        self._take(legs[0])
+        self._after = self._distances_after()
+        self._begun = False
 
     @property
     def distance_to_go(self) -> float:
@@ -119,6 +133,9 @@ class NavigationComputer:
             )
             bearing_error = wrap(azimuth - state.heading)
         self.remaining = distance
+        if not self._hear(distance, state):
+            self.guidance = self._reckoned(state)
+            return False
         self.guidance = Guidance(True, bearing_error, 0.0, state.heading + bearing_error)
         return distance < HOMING_PASSAGE_RANGE and abs(bearing_error) > 0.5 * pi
 
@@ -134,10 +151,29 @@ class NavigationComputer:
             azimuth, _, distance = earth.inverse(line.latitude, line.longitude, latitude, longitude)
         along, across = earth.beside(distance, azimuth - line.course)
         self.remaining = line.end - along
-        # Meridians converge: the geodesic of the line has another true course here than at its reference point.
-        convergence = (longitude - line.longitude) * sin(0.5 * (latitude + line.latitude))
-        self.guidance = Guidance(False, 0.0, across, (line.course + convergence) % (2 * pi))
+        if not self._hear(distance, state):
+            self.guidance = self._reckoned(state)
+            return False
+        self.guidance = Guidance(False, 0.0, across, self._course_here(state))
         return self.remaining <= (self._lead(state) if leg.turn == "fly-by" else 0.0)
+
+    def _course_here(self, state: State) -> float:
+        """The true course of the leg's line: meridians converge, it is another here than at the reference point."""
+        line = self._line
+        convergence = (state.longitude - line.longitude) * sin(0.5 * (state.latitude + line.latitude))
+        return (line.course + convergence) % (2 * pi)
+
+    def _hear(self, distance: float, state: State) -> bool:
+        """Whether the station of the leg, `distance` m away, is received."""
+        received = distance <= self._horizon + receivers.horizon(state.altitude)
+        if received != self._received:
+            self._received = received
+            self.on_reception(self.leg, received)
+        return received
+
+    def _reckoned(self, state: State) -> Guidance:
+        """Dead reckoning: along the course of the leg, without knowing how far off its line."""
+        return Guidance(False, 0.0, 0.0, self._course_here(state))
 
     def _lead(self, state: State) -> float:
         """How far before a fly-by waypoint the turn begins, m."""
@@ -176,6 +212,9 @@ class NavigationComputer:
             return
         self._take(self.legs[self.index])
         fix, course = self.leg.fix, self.leg.course_true
+        needs_sight = self.leg.mode != "direct" and fix.station is not None and not fix.station.is_ndb
+        self._horizon = receivers.horizon(fix.station.elevation) if needs_sight and fix.station else inf
+        self._received = True
         if course is None:
             _, course, _ = earth.inverse(latitude, longitude, fix.latitude, fix.longitude)
             self._line = Line(fix.latitude, fix.longitude, course, 0.0)

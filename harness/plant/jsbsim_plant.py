@@ -3,7 +3,7 @@
 import ctypes
 import re
 from collections.abc import Callable, Mapping, Sequence
-from math import degrees, inf, isfinite, nan
+from math import degrees, nan
 from operator import call
 from pathlib import Path
 from typing import NamedTuple
@@ -16,19 +16,10 @@ from harness.loading.balance import Item, combined, four_points
 from harness.log import Inputs
 from harness.log.inputs import AT_START, BEFORE, Write
 from harness.plant.impact import IMPACT_SINK, impact
+from harness.plant.instruments import Instruments
 from harness.plant.messages import Messages
 from harness.plant.properties import COMMANDS, PSF, SENSED, STATE
-from harness.state import (
-    FAST,
-    FIELDS,
-    LOW,
-    MEDIUM,
-    MEDIUM_PERIOD,
-    SLOW_PERIOD,
-    Commands,
-    State,
-    close_to_ground,
-)
+from harness.state import LOW, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, rest
 from harness.units import FT, LB
 
 INTEGRATORS = {
@@ -39,8 +30,7 @@ INTEGRATORS = {
     "simulation/integrator/position/rotational": 7.0,
     "simulation/integrator/position/translational": 4.0,
 }
-TERRAIN_PERIOD = 24  # pilot steps between two looks at the terrain below
-TERRAIN_HEIGHT = 60.0  # m; nearer the ground its elevation stays what it was
+TERRAIN_PERIOD = 24  # pilot steps between two looks at the terrain; below LOW its elevation stays what it was
 MOST_CONTACTS = 32  # gear units and structure contacts an aircraft may have
 STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground trim finds the true one
 GROUND_TRIM = 2.0  # JSBSim's trim mode for an aircraft on its wheels
@@ -48,9 +38,6 @@ FIXED, MOVABLE = 1, 5  # point masses: the first of the four that stay, and the 
 INCH = FT / 12
 WARM_UP = 10.0  # s until every sensor shows what it senses: five time constants of the slowest
 BELOW_GROUND = -2.0  # m: no strut is that short
-
-Reading = tuple[str, Callable[[], float], float]
-"""A field of State, how it is read, and what one unit of the reading is in SI."""
 
 
 class Placement(NamedTuple):
@@ -120,24 +107,24 @@ class JSBSimPlant:
         self._initialise(placement, loads, air)
         for name, value in (preset or {}).items():
             self._put(name, value)
+        self._true_height = self._node("position/h-agl-ft").get_double_value
+        self._standing_height = self._true_height() * FT
         self._bind({})
-        self._state = State(*[0.0] * len(FIELDS))
-        self._close = False
-        self._blind = MEDIUM_PERIOD  # pilot steps until more than the fast fields are read
+        self._blind = MEDIUM_PERIOD  # pilot steps until more than a glance is taken
         self._setters = [[self.setter(name) for name in COMMANDS[field]] for field in Commands._fields]
+        shut_down = Commands._fields.index("shut_down")
+        self._setters[shut_down] = [_fuel_lever(*engine) for engine in enumerate(self._setters[shut_down])]
         self._set_terrain = self.setter("position/terrain-elevation-asl-ft")
         self._written = Commands(*[nan] * len(Commands._fields))
         self._structure = self._contacts()
-        self._true_height = self._node("position/h-agl-ft").get_double_value
-        self._standing_height = self._true_height() * FT
         self._run = self._fdm.run
         self._terrain_seen = 0
         self._elevation = placement.elevation
-        self._read_whole = 0
+        self._whole_period = SLOW_PERIOD
         self._sink = 0.0
         self._write(Commands())
         self._steps = 0
-        self._renew(self._readings)
+        self._look(whole=True)
 
     @property
     def fdm(self) -> jsbsim.FGFDMExec:
@@ -155,7 +142,7 @@ class JSBSimPlant:
                 self._steps += 1
             self._inputs.steps = self._steps
             self._bind(SENSED)
-            self._renew(self._readings)
+            self._look(whole=True)
 
     def state(self) -> State:
         """The aircraft as it is now, renewed in place by `advance`."""
@@ -176,38 +163,27 @@ class JSBSimPlant:
         self._blind -= 1
         if self._blind <= 0:
             return self._look_around()
-        # By hand: this runs at every pilot step.
-        vertical_speed, pitch = self._vertical_speed() * FT, self._pitch()
-        if not -inf < vertical_speed + pitch < inf:
+        if not self._instruments.glance(self._steps * self._step):
             raise self._not_finite()
-        state = self._state
-        state.time = self._steps * self._step
-        state.vertical_speed = vertical_speed
-        state.pitch = pitch
-        return state
+        return self._state
 
     def renew(self) -> None:
         """Renew all of State, whatever was due. Raises NumericalError."""
-        self._renew(self._readings)
+        self._look(whole=True)
 
     def _look_around(self) -> State:
         """Read more of State, and see whether it is still the state of an aircraft."""
+        self._look(whole=self._steps % self._whole_period == 0)
         state = self._state
-        whole = self._close or self._steps - self._read_whole >= SLOW_PERIOD
-        if whole:
-            self._read_whole = self._steps
-        self._renew(self._readings if whole else self._medium_readings)
         sink, self._sink = self._sink, -state.vertical_speed
+        self._blind = rest(state, self._steps)
+        self._whole_period = 2 if self._blind == 1 else SLOW_PERIOD
         height = self._true_height() * FT - self._standing_height
-        self._close = close_to_ground(height, state.cas)
-        # on multiples of the period, as the log records: a record never holds an older position than its time
-        odd = self._steps % 2  # records made close to the ground are every second step
-        self._blind = 1 if self._close or odd else MEDIUM_PERIOD - self._steps % MEDIUM_PERIOD
         if height < LOW:
             struck = any(map(call, self._structure)) or height < BELOW_GROUND
             if struck or (state.main_on_ground and sink > IMPACT_SINK):
                 raise impact(state, sink, struck=struck)
-        if self._steps - self._terrain_seen >= TERRAIN_PERIOD and height > TERRAIN_HEIGHT:
+        elif self._steps - self._terrain_seen >= TERRAIN_PERIOD:
             self._terrain_seen = self._steps
             elevation = self._terrain(state.latitude, state.longitude)
             if elevation != self._elevation:
@@ -217,23 +193,13 @@ class JSBSimPlant:
 
     def _bind(self, sensed: Mapping[str, str]) -> None:
         """Read State from the true values, but for those that are `sensed` by another property."""
-        self._readings = [
-            (field, self._getter(sensed.get(binding.name, binding.name)), binding.factor)
-            for field, binding in zip(FIELDS, STATE, strict=True)
-        ]
-        self._medium_readings = self._readings[: len(FAST) + len(MEDIUM)]
-        (_, _, _), (_, self._vertical_speed, _), (_, self._pitch, _) = self._readings[: len(FAST)]
+        getters = [self._getter(sensed.get(binding.name, binding.name)) for binding in STATE]
+        self._instruments = Instruments(getters, [binding.factor for binding in STATE], self._standing_height)
+        self._state = self._instruments.state
 
-    def _renew(self, readings: Sequence[Reading]) -> None:
-        """Put what is read into State, unless some of it is not finite."""
-        numbers = [get() * factor for _, get, factor in readings]
-        if not -inf < sum(numbers) < inf:
+    def _look(self, *, whole: bool) -> None:
+        if not self._instruments.look(self._steps * self._step, whole=whole):
             raise self._not_finite()
-        state = self._state
-        for (field, _, _), number in zip(readings, numbers, strict=True):
-            setattr(state, field, number)
-        state.time = self._steps * self._step
-        state.height -= self._standing_height
 
     def _contacts(self) -> list[Callable[[], float]]:
         """Whether each part of the structure touches the ground: fuselage, wing tips, propellers."""
@@ -241,13 +207,12 @@ class JSBSimPlant:
         return [node.get_double_value for node in nodes if node is not None]
 
     def _not_finite(self) -> NumericalError:
-        lost = [field for field, get, _ in self._readings if not isfinite(get())]
         return NumericalError(
             "the state of the aircraft is no longer finite",
             time=self._steps * self._step,
             phase="in the simulator",
             required="finite numbers",
-            achieved=", ".join(lost[:5]),
+            achieved=", ".join(self._instruments.lost()[:5]),
             knob="look at the last rows of the time history; a mass, inertia or wind out of all bounds does this",
         )
 
@@ -335,6 +300,11 @@ class JSBSimPlant:
 _STANDING = Commands._fields.index("pitch_hold")  # from here on commands change by procedures only
 _EVERY = range(len(Commands._fields))
 _MOVING = range(_STANDING)
+
+
+def _fuel_lever(engine: int, run: Callable[[float], object]) -> Callable[[float], object]:
+    """What opens or closes the fuel of one engine, from the sum that tells which are shut down."""
+    return lambda shut_down: run(float(not int(shut_down) >> engine & 1))
 
 
 def load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:

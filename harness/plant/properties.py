@@ -43,6 +43,7 @@ _STATE = {
     "load_factor": Binding("accelerations/Nz"),
     "main_on_ground": Binding("gear/main-wow"),
     "nose_on_ground": Binding("gear/nose-wow"),
+    "engines_failed": Binding("propulsion/engines-failed"),
     "flap": Binding("fcs/flap-pos-norm"),
     "gear": Binding("gear/gear-pos-norm"),
     "stall_warning": Binding("aero/stall-warning"),
@@ -108,7 +109,8 @@ _COMMANDS = {
 BRAKES = ("fcs/left-brake-cmd-norm", "fcs/right-brake-cmd-norm")
 CROSSFEED: tuple[str, ...] = tuple(f"fuel/crossfeed-open[{engine}]" for engine in range(4))
 THROTTLES: tuple[str, ...] = tuple(f"fcs/throttle-cmd-norm[{engine}]" for engine in range(4))
-_SEVERAL = {"throttle": THROTTLES, "brake": BRAKES, "crossfeed": CROSSFEED}
+FUEL_LEVERS: tuple[str, ...] = tuple(f"propulsion/engine-run[{engine}]" for engine in range(4))
+_SEVERAL = {"throttle": THROTTLES, "brake": BRAKES, "crossfeed": CROSSFEED, "shut_down": FUEL_LEVERS}
 COMMANDS: dict[str, tuple[str, ...]] = {
     field: _SEVERAL.get(field) or (_COMMANDS[field],) for field in Commands._fields
 }

@@ -50,6 +50,7 @@ def outputs() -> frozenset[str]:
         last_waypoint="",
         mission_text="",
         wall_time=0.0,
-        failure="nothing was flown",
+        outcome="stopped",
+        reason="nothing was flown",
     ).summary
     return frozenset(summary.keys() - MACHINE)

@@ -105,7 +105,7 @@ def _transition(plan: PhasePlan, event: Happening) -> PhasePlan:
     if event.v2 is not None:
         by_pitch = steps["speed by pitch"]
         chosen += [
-            by_pitch._replace(action={**by_pitch.action, "speed": f"{event.v2!r} m/s CAS"}),
+            by_pitch._replace(action={**by_pitch.action, "speed": f"{event.v2!r} m/s CAS"}, only_if=()),
             steps["climb with the speed"],
         ]
     if event.slow_down:

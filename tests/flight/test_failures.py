@@ -366,12 +366,15 @@ def test_an_aircraft_that_jsbsim_cannot_load_is_refused(
     assert not (tmp_path / "out").exists()
 
 
-def test_a_rejected_take_off_is_no_completed_mission(tmp_path: Path, watcher: Watcher) -> None:
-    item = 'name="a propeller has slowed down" quantity="propeller-speed" at-most="2000 rpm"'
+def test_a_rejected_take_off_that_nobody_expected_is_no_completed_mission(
+    tmp_path: Path, watcher: Watcher
+) -> None:
+    item = 'name="engine failure" quantity="time-in-phase" at-least="3 s"'
     error = failed(Session(mission(tmp_path, wait_for("T/O.run", "RTO", item))), watcher)
-    assert error.phase == "RTO"
-    assert "rejected" in str(error)
-    assert "a propeller has slowed down" in error.knob
+    assert (error.required, error.phase) == ("completed", "END")
+    assert "rejected take-off" in str(error)
+    assert "engine failure" in error.achieved
+    assert "expects" in error.knob
 
 
 @pytest.mark.parametrize("rate", [0, 100, -24])

@@ -78,7 +78,8 @@ def test_every_key_of_the_summary_is_described(repository: Path) -> None:
         last_waypoint="",
         mission_text="",
         wall_time=1.0,
-        failure="nothing was flown",
+        outcome="stopped",
+        reason="nothing was flown",
     )
     text = (repository / "docs" / "summary-schema.md").read_text("utf-8")
     described = {

@@ -71,7 +71,8 @@ def run_of(log: FlightLog, failure: str = "") -> Run:
         last_waypoint="WP1",
         mission_text="<mission/>\n",
         wall_time=2.0,
-        failure=failure,
+        outcome="stopped" if failure else "completed",
+        reason=failure,
     )
 
 
