@@ -69,8 +69,8 @@ def parser() -> Parser:
 
     checking = commands.add_parser(
         "check",
-        help="find what is wrong with a mission",
-        description="Everything that can be known without flying.",
+        help="find what is wrong with a mission or an aircraft",
+        description="Everything that can be known without flying, of a mission or of an aircraft by its name.",
     )
     add_mission(checking)
     add_json(checking)
@@ -239,11 +239,20 @@ def end(*_: object) -> NoReturn:
 
 def check(chosen: argparse.Namespace) -> int:
     """`harness check`."""
+    from harness.lint import aircraft as lint
     from harness.mission.balance import LoadSheet
     from harness.session import Session
 
+    if chosen.mission in resources.aircraft():
+        lint.check(resources.root(), chosen.mission)
+        if chosen.json:
+            print_json({"aircraft": chosen.mission, "ok": True, "faults": []})
+        else:
+            print(f"{chosen.mission}: nothing in its files that JSBSim would refuse or misread.")
+        return 0
     session = Session(chosen.mission, chosen.overrides)
     mission, sheet = session.mission, LoadSheet(session.mission, session.manual)
+    lint.check(resources.root(), mission.aircraft)
     if chosen.json:
         fit = {"mission": mission.name, "file": str(mission.source_path), "ok": True, "faults": []}
         print_json({**fit, "loading": sheet.data()})

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from harness import cli
 from harness.errors import InputError, InputErrors
 from harness.lint.aircraft import check
 from harness.lint.words import OWN_PROPERTIES
@@ -152,6 +153,11 @@ def test_a_table_out_of_order(root: Path, rows: str, said: str) -> None:
     path.write_text(path.read_text("utf-8").replace("</system>", extra), encoding="utf-8")
     with pytest.raises(InputErrors, match=said):
         check(root, "gta")
+
+
+def test_the_command_line_checks_an_aircraft_by_its_name(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["check", "gta"]) == 0
+    assert "nothing in its files" in capsys.readouterr().out
 
 
 def test_a_refused_aircraft_never_reaches_jsbsim(root: Path) -> None:

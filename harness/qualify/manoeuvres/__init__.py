@@ -32,6 +32,7 @@ MANOEUVRES: Mapping[str, Manoeuvre] = MappingProxyType(
         "take-off": ground.take_off,
         "brake hold": ground.brake_hold,
         "coast-down": ground.coast_down,
+        "wheel spin-up": ground.spin_up,
         "stopping by brakes": ground.stopping,
         "turn on the ground": ground.turn,
         "minimum control speed on the ground": ground.minimum_control_speed_ground,

@@ -10,7 +10,7 @@ from harness.world.atmosphere import SEA_LEVEL_PRESSURE, SEA_LEVEL_TEMPERATURE, 
 LEVER_STEP = 10.0  # s that are watched after the lever moved
 MW = 1e6
 TAKE_OFF_POWER = 7.971e6  # W: EASA TCDS E.033 Iss. 08
-FLAT = 1.48  # with the exponents: aircraft/gta/facts.csv flat_rating_factor
+FLAT, HOT = 1.525, 1.1  # with the other exponents: docs/assumptions.md, Propulsion
 
 
 def running(aircraft: Aircraft, condition: Condition) -> Bench:
@@ -70,7 +70,8 @@ def rating(aircraft: Aircraft, condition: Condition) -> Outcome:
     ram = 1 + 0.2 * mach**2
     theta = temperature(altitude, condition.isa) / SEA_LEVEL_TEMPERATURE * ram
     delta = pressure(altitude) / SEA_LEVEL_PRESSURE * ram**3.5
-    law = TAKE_OFF_POWER * min(1.0, FLAT * delta**0.92 * theta**-0.45)
+    hot = 1.0 - condition.isa / temperature(altitude, condition.isa)
+    law = TAKE_OFF_POWER * min(1.0, FLAT * delta**0.92 * theta**-0.45 * hot**HOT)
     bench.levers(0.0)
     bench.run(15.0)
     bench.levers(condition.lever)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from harness.analysis.panel import Curve, Panel
-from harness.plant.bench import Bench, Record
+from harness.plant.bench import WHEELS, Bench, Record
 from harness.qualify.condition import Condition
 from harness.qualify.outcome import Aircraft, Outcome, history
 from harness.units import FT, KN, KT
@@ -192,6 +192,33 @@ def stopping(aircraft: Aircraft, condition: Condition) -> Outcome:
     return Outcome(
         {"distance": distance, "mean deceleration": float(record["ground speed"][0] ** 2 / 2 / distance)},
         [history(record, "ground speed, m/s", ("ground speed", 1.0))],
+    )
+
+
+def spin_up(aircraft: Aircraft, condition: Condition) -> Outcome:
+    """Wheels at rest set on the runway at speed: the momentum they take, against the same run with turning wheels."""
+
+    def run(wheels: float) -> Record:
+        bench = rolling(aircraft, condition)
+        bench.put_all("gear/wheel-speed-mps", wheels, WHEELS)
+        return bench.record(
+            1.0, ("ground speed", "mass", "gear/wheel-speed-mps[6]", "forces/fbx-gear-lbs"), steps=1
+        )
+
+    still, turning = run(0.0), run(condition.tas)
+    lost = (turning["ground speed"][-1] - still["ground speed"][-1]) * still["mass"][0]
+    bench = aircraft.bench()
+    taken = sum(
+        count * bench.get(f"gear/{name}-wheel-inertia-kgm2") / bench.get(f"gear/{name}-tyre-radius-m") ** 2
+        for name, count in (("main", 12), ("nose", 2))
+    )
+    return Outcome(
+        {"impulse": 100 * float(lost) / (taken * float(still["ground speed"][-1]))},
+        [
+            history(still, "tread of a main wheel, m/s", ("gear/wheel-speed-mps[6]", 1.0)),
+            history(still, "gear force ahead, kN", ("forces/fbx-gear-lbs", 1000 / 4.4482216)),
+        ],
+        f"{float(lost) / 1000:.1f} kN s",
     )
 
 

@@ -10,41 +10,45 @@ from harness.qualify.condition import Condition
 from harness.qualify.outcome import Aircraft, Outcome, history
 from harness.units import FT, LB
 
-RAMP_EDGE = 32.0  # m aft of the nose: end of the hold and half of the ramp
-SLIDE = 2.5  # s from its place over the edge, an extraction parachute's pull
+LOAD = 5  # the point mass that systems/payload.xml calls load 1
+PARACHUTE = (
+    30.0  # m2 of drag area: an extraction parachute that draws with 1.2 times the weight of 8 t at 140 kt
+)
+RAMP_END = 33.2  # m: aircraft/gta/loading.xml
 INCH = FT / 12
 DEGREE = radians(1.0)
+CENTRE = "inertia/cg-x-in"
 
 
 def airdrop(aircraft: Aircraft, condition: Condition) -> Outcome:
-    """Stick fixed: a load slides aft along the hold and is gone; what centre of gravity, mass and load factor do."""
+    """Stick fixed: a load is drawn out by its parachute; what centre of gravity, mass, pitch and load factor do."""
     bench = aircraft.loaded(condition)
     load = condition.payload
     bench.load(condition.mass - load)
-    place, weight = "inertia/pointmass-location-X-inches[2]", "inertia/pointmass-weight-lbs[2]"
-    start = bench.get("inertia/cg-x-in") * INCH
-    bench.put(place, start / INCH)
-    bench.put(weight, load / LB)
+    start = bench.get(CENTRE) * INCH
+    bench.put(f"inertia/pointmass-location-X-inches[{LOAD}]", start / INCH)
+    bench.put(f"inertia/pointmass-weight-lbs[{LOAD}]", load / LB)
+    for name, value in (("ramp-cmd-norm", 1.0), ("ramp-pos-norm", 1.0), ("parachute-m2[0]", PARACHUTE)):
+        bench.put(f"payload/{name}", value)
     trim(bench, condition.altitude, Attitude(condition.tas, alpha=radians(6.0)))
-    release(bench)
     fly_by_hand(bench)
+    release(bench)
+    bench.put("fuel/freeze", 1.0)
     before = bench["mass"]
 
-    def slide(time: float) -> None:
-        share = min(1.0, max(0.0, (time - 1.0) / SLIDE))
-        bench.put(place, (start + (RAMP_EDGE - start) * share**2) / INCH)
-        if share >= 1.0:
-            bench.put(weight, 0.0)
+    def pull(time: float) -> None:
+        if 1.0 <= time < 1.0 + 1 / bench.rate:
+            bench.put("payload/release", 1.0)
 
     record = bench.record(
         8.0,
-        ("pitch", "pitch_rate", "pitch acceleration", "load_factor", "mass", "inertia/cg-x-in"),
-        pilot=slide,
+        ("pitch", "pitch acceleration", "load_factor", "mass", CENTRE, "payload/speed-mps"),
+        pilot=pull,
         steps=1,
     )
-    at_edge = int(np.argmax(record["inertia/cg-x-in"]))
-    shift = float(record["inertia/cg-x-in"][at_edge] - record["inertia/cg-x-in"][0]) * INCH
-    expected = load / before * (RAMP_EDGE - start)
+    shift = float(record[CENTRE].max() - record[CENTRE][0]) * INCH
+    expected = load / before * (RAMP_END - start)
+    moved = record["payload/speed-mps"] > 0
     return Outcome(
         {
             "shift of the centre of gravity": 100 * shift / expected,
@@ -53,8 +57,10 @@ def airdrop(aircraft: Aircraft, condition: Condition) -> Outcome:
             "load factor": float(record["load_factor"].max()),
         },
         [
-            history(record, "deg", ("pitch", DEGREE)),
+            history(record, "pitch, deg", ("pitch", DEGREE)),
+            history(record, "pitch acceleration, deg/s2", ("pitch acceleration", DEGREE)),
             history(record, "load factor", ("load_factor", 1.0)),
-            history(record, "centre of gravity, m", ("inertia/cg-x-in", 1 / INCH)),
+            history(record, "centre of gravity, m", (CENTRE, 1 / INCH)),
         ],
+        f"out after {np.count_nonzero(moved) / bench.rate:.1f} s at {record['payload/speed-mps'].max():.1f} m/s",
     )
