@@ -64,7 +64,9 @@ class Card(NamedTuple):
         return all(need.met for need in self.needs)
 
 
-def card(case: TakeOff, available: Runway, manual: FlightManual | None = None) -> Card:
+def card(
+    case: TakeOff, available: Runway, manual: FlightManual | None = None, *, search: bool = True
+) -> Card:
     """Fly what has to be flown for `case` on a runway of these distances, and search its greatest mass.
 
     Raises InputErrors, FlightError.
@@ -72,7 +74,7 @@ def card(case: TakeOff, available: Runway, manual: FlightManual | None = None) -
     manual = manual or read_manual(case.aircraft)
     check(case, manual)
     field = FieldFlights(case, manual).field(available)
-    mass, set_by = greatest_mass(case, available, manual, field.speeds.vmcg)
+    mass, set_by = greatest_mass(case, available, manual, field.speeds.vmcg) if search else (float("nan"), "")
     return Card(case, available, field, tuple(needs(field, available)), mass, set_by)
 
 

@@ -268,6 +268,11 @@ class FieldFlights:
         )
 
 
+def field_of(case: TakeOff) -> Field:
+    """The balanced field of a take-off."""
+    return FieldFlights(case).field()
+
+
 def _gradient(flown: Flown) -> float:
     """Climb and acceleration as one gradient, over the last seconds."""
     last = flown.time >= flown.time[-1] - CLIMB_OVER

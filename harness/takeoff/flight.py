@@ -25,6 +25,7 @@ CS25_SCREEN = 35 * FT  # CS 25.113
 RUNWAY = 9000.0  # m: nobody shall run out of it here
 TIME_LIMIT = 300.0  # s
 STOPPED = 0.2  # m/s
+WET = 1.0  # systems/wheels.xml
 NOSE_UP = (
     3.0  # m: so much lower the wheels may hang than State's height, that of a level aircraft on its wheels
 )
@@ -207,6 +208,8 @@ def prepared(
     check(case, manual)
     runway = case.runway(RUNWAY)
     preset = lined_up(manual.flap(case.flaps).position)
+    if case.surface == "wet":
+        preset["ground/surface"] = WET
     if case.slope:
         preset |= slope(case.slope, case.mass, case.heading)
     pilot, plant = prepare(

@@ -1,0 +1,176 @@
+"""`harness takeoff card` and `harness takeoff field`: speeds, distances and limits of CS-25."""
+
+import argparse
+import json
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from harness.errors import InputError
+from harness.takeoff import options
+from harness.units import UnitError, parse
+
+if TYPE_CHECKING:
+    from harness.takeoff.runway import Site
+
+PILOT_RATE = 120  # steps a second: V1 and VR are met within 0.03 m/s
+NOT_MET = 1
+DISTANCES = ("--tora", "--toda", "--asda")
+
+
+def add(topics: Any, add_json: Callable[[argparse.ArgumentParser], None]) -> None:  # noqa: ANN401  argparse's own class is private
+    """The arguments of both."""
+    card = topics.add_parser(
+        "card", help="required against available on a runway, and the greatest mass there"
+    )
+    card.add_argument(
+        "--runway",
+        metavar="AIRPORT/RUNWAY",
+        help="from the navigation database; without it, the distances by hand",
+    )
+    for option in DISTANCES:
+        card.add_argument(option, metavar="3000m", help="available, in place of the runway's length")
+    card.add_argument("--mass", metavar="110t", required=True, help="take-off mass")
+    card.add_argument("--temperature", metavar="25degC", help="on the runway; in place of --isa-deviation")
+    card.add_argument("--no-greatest-mass", action="store_true", help="do not search the greatest mass")
+    card.add_argument(
+        "--out", metavar="DIR", help="folder for a new folder with the card as JSON and as a page to print"
+    )
+    field = topics.add_parser("field", help="speeds and field lengths over mass")
+    field.add_argument("--mass", metavar="FROM:TO:STEP", required=True, help="take-off masses, also 89t,100t")
+    for parser, run in ((card, run_card), (field, run_field)):
+        parser.add_argument(
+            "--vr",
+            metavar="SPEED",
+            default="scheduled",
+            help="rotation speed, CAS (default: the least of CS-25)",
+        )
+        parser.add_argument(
+            "--surface", choices=("dry", "wet"), default="dry", help="of the paved runway (default: dry)"
+        )
+        options.add_conditions(parser)
+        add_json(parser)
+        parser.set_defaults(run=run)
+
+
+def run_field(chosen: argparse.Namespace) -> int:
+    """`harness takeoff field`: the balanced field of each mass."""
+    masses = options.read("--mass", options.masses, chosen.mass)
+    vr = options.read("--vr", options.rotation_speed, chosen.vr)
+    fields = options.conditions(chosen)
+    workers = options.workers(chosen.workers)
+    from harness.manual import read_manual
+    from harness.takeoff.case import TakeOff, check
+    from harness.takeoff.field import field_of
+    from harness.takeoff.fleet import fly_all
+    from harness.takeoff.text import field_data, field_text
+
+    cases = [TakeOff(mass, vr, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields) for mass in masses]
+    for case in cases:
+        check(case, read_manual(case.aircraft))
+    rows = [
+        {"mass_kg": case.mass, **field_data(field)}
+        for case, field in zip(cases, fly_all(field_of, cases, workers), strict=True)
+    ]
+    print(json.dumps(rows, indent=2) if chosen.json else "\n\n".join(field_text(row) for row in rows))
+    return 0
+
+
+def run_card(chosen: argparse.Namespace) -> int:
+    """`harness takeoff card`: exit code 1 when the take-off is not possible."""
+    mass = options.read("--mass", parse, chosen.mass, "mass")
+    vr = options.read("--vr", options.rotation_speed, chosen.vr)
+    celsius = (
+        None if chosen.temperature is None else options.read("--temperature", _celsius, chosen.temperature)
+    )
+    if celsius is not None and chosen.isa_deviation is not None:
+        raise InputError(
+            "both --temperature and --isa-deviation say how warm it is",
+            file="--temperature",
+            remedy="give one",
+        )
+    wind = _wind_from(chosen)
+    fields = options.conditions(chosen)
+    site = _site(chosen, fields)
+    from harness.takeoff.card import card
+    from harness.takeoff.case import TakeOff
+    from harness.takeoff.runway import deviation, on_site
+    from harness.takeoff.text import card_data, card_text
+
+    if celsius is not None:
+        fields["isa_deviation"] = deviation(celsius, site.elevation)
+    case = on_site(TakeOff(mass, vr, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields), site, *wind)
+    result = card(case, site.available, search=not chosen.no_greatest_mass)
+    data = card_data(result, site)
+    folder = _keep(data, chosen.out) if chosen.out else None
+    print(
+        json.dumps(data, indent=2)
+        if chosen.json
+        else card_text(data) + (f"\nkept in {folder}" if folder else "")
+    )
+    return 0 if result.met else NOT_MET
+
+
+def _keep(data: dict[str, Any], out: str) -> Any:  # noqa: ANN401  the path of the folder
+    from harness.log import RunFolder
+    from harness.takeoff.page import page
+
+    with RunFolder(out, "card") as folder:
+        (folder.path / "card.json").write_text(json.dumps(data, indent=2) + "\n", "utf-8")
+        (folder.path / "card.html").write_text(page(data), "utf-8")
+        return folder.keep()
+
+
+def _site(chosen: argparse.Namespace, fields: dict[str, Any]) -> "Site":
+    from harness.takeoff.field import Runway
+    from harness.takeoff.runway import Site, from_database
+
+    given = {
+        option[2:]: options.read(option, parse, text, "length")
+        for option in DISTANCES
+        if (text := getattr(chosen, option[2:])) is not None
+    }
+    for option, length in given.items():
+        if not 0 < length < 1e4:
+            raise InputError(
+                f"{length:.0f} m is no length of a runway", file=f"--{option}", remedy="from 1 m to 10 km"
+            )
+    if chosen.runway is not None:
+        site = from_database(chosen.runway)
+        run, distance, stop = site.available
+        available = Runway(given.get("tora", run), given.get("toda", distance), given.get("asda", stop))
+        return site._replace(
+            available=available,
+            elevation=fields.get("elevation", site.elevation),
+            slope=fields.get("slope", site.slope),
+        )
+    if "tora" not in given:
+        raise InputError(
+            "no runway is given",
+            file="--runway",
+            remedy="--runway EDDK/14L, or --tora 2500m with --elevation and --slope",
+        )
+    tora = given["tora"]
+    available = Runway(tora, given.get("toda", tora), given.get("asda", tora))
+    return Site("runway by hand", 0.0, fields.get("elevation", 0.0), fields.get("slope", 0.0), available)
+
+
+def _wind_from(chosen: argparse.Namespace) -> tuple[float | None, float]:
+    """A wind given by direction, `--wind 10kt 250deg`: (direction, speed), taken out of the options."""
+    from harness.takeoff.runway import wind_direction
+
+    for speed, word in chosen.wind:
+        direction = wind_direction(word)
+        if direction is not None:
+            chosen.wind = [one for one in chosen.wind if one[1] != word]
+            return direction, options.read("--wind", parse, speed, "speed")
+    return None, 0.0
+
+
+def _celsius(text: str) -> float:
+    number = text.removesuffix("degC").strip()
+    try:
+        if text.endswith("degC"):
+            return float(number)
+    except ValueError:
+        pass
+    raise UnitError(f'"{text}" is no temperature; write e.g. 25degC')
