@@ -15,7 +15,7 @@ from typing import Any, Protocol, cast
 from harness.mission.overrides import Override
 from harness.studies.model import Subject
 
-KINDS = {"flight": "harness.studies.flight"}
+KINDS = {"flight": "harness.studies.flight", "take-off": "harness.studies.takeoff"}
 """The module of each kind."""
 
 

@@ -43,6 +43,37 @@ def row(flown: Flown) -> dict[str, Any]:
     }
 
 
+COLUMNS = frozenset(
+    [
+        "mass_kg",
+        "vr_mps",
+        "vlof_mps",
+        "v_35ft_mps",
+        "v_35m_mps",
+        "rotation_distance_m",
+        "liftoff_distance_m",
+        "distance_35ft_m",
+        "distance_35m_m",
+        "time_liftoff_s",
+        "time_35ft_s",
+        "time_35m_s",
+        "takeoff_run_aeo_m",
+        "takeoff_distance_aeo_m",
+        "greatest_pitch_rad",
+        "greatest_deviation_m",
+        "start",
+        "flaps",
+        "isa_deviation_K",
+        "qnh_Pa",
+        "elevation_m",
+        "headwind_mps",
+        "crosswind_mps",
+        "slope",
+    ]
+)
+"""The keys of a row, known before anything is flown."""
+
+
 def take_off_case(**quantities: Any) -> dict[str, Any]:  # noqa: ANN401  the fields of TakeOff, of several types
     """Fly the take-off with these fields of TakeOff, SI, and return its row: a case of a study.
 

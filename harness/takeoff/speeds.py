@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import nan
+from math import cos, nan, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -18,8 +18,9 @@ from harness.takeoff.flight import TIME_LIMIT, prepared
 from harness.units import FT
 
 DEVIATION = 30 * FT  # CS 25.149(e): the most the path may leave the line, rudder alone
-SLOWEST, FASTEST = 40.0, 85.0  # m/s: VMCG lies between
-ROLL_ON = 14.0  # m/s beyond the failure: by then the path comes back or is lost
+SLOWEST, FASTEST, UPWARDS = 46.0, 85.0, 4.0  # m/s: VMCG lies between, looked for in these steps
+BEGUN = 2.0  # m/s beyond the failure the path has left the line
+ROLL_ON = 14.0  # m/s beyond it the path is parallel to the line again, or lost
 TOLERANCE = 0.1  # m/s
 HIGH = 100.0  # m: in the air, for VMCA
 STEADY = 12.0  # s after full rudder; the first swing is not looked at
@@ -55,15 +56,21 @@ def vmcg(case: TakeOff, manual: FlightManual) -> float:
     """Minimum control speed on the ground, CS 25.149(e).
 
     Flown, with brackets on the failure speed: the outer engine fails, the nose wheel is free, the path leaves the
-    line by 30 ft. The rudder is the pilot's.
+    line by 30 ft until it is parallel to it again. The rudder is the pilot's.
     """
 
     def beyond(vef: float) -> float:
         return _deviation(vef, case, manual) - DEVIATION
 
-    if beyond(SLOWEST) <= 0.0:
-        return SLOWEST
-    return float(brentq(beyond, SLOWEST, FASTEST, xtol=TOLERANCE))
+    low = SLOWEST
+    if beyond(low) <= 0.0:
+        return low
+    # Upwards: a light aircraft, nearly carried by its wings, drifts again as much when it is faster.
+    while beyond(low + UPWARDS) > 0.0:
+        low += UPWARDS
+        if low > FASTEST:
+            return FASTEST
+    return float(brentq(beyond, low, low + UPWARDS, xtol=TOLERANCE))
 
 
 def _deviation(vef: float, case: TakeOff, manual: FlightManual) -> float:
@@ -72,7 +79,11 @@ def _deviation(vef: float, case: TakeOff, manual: FlightManual) -> float:
     pilot, plant, track = prepared(fast, Happening(vef=vef, steering=False), manual)
 
     def over(state: State) -> bool:
-        return state.cas > vef + ROLL_ON or state.height > 1.0
+        """Parallel to the line again (the engine on the left failed), or off the ground."""
+        sideways = state.velocity_east * cos(case.heading) - state.velocity_north * sin(case.heading)
+        return (
+            (state.cas > vef + BEGUN and sideways >= 0.0) or state.cas > vef + ROLL_ON or state.height > 1.0
+        )
 
     try:
         fly(pilot, plant, observers=(track,), time_limit=TIME_LIMIT, until=over)

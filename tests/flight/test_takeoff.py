@@ -145,3 +145,20 @@ def test_an_error_of_a_worker_arrives_whole():
 
     error = OverrunError("left the end", time=3.0, phase="RTO", required="a", achieved="b")
     assert str(pickle.loads(pickle.dumps(error))) == str(error)  # noqa: S301  our own
+
+
+def test_a_take_off_is_a_case_of_a_study():
+    """The mission's own take-off, with the columns that the study was promised."""
+    from harness import resources
+    from harness.mission.overrides import Override
+    from harness.studies import takeoff as kind
+    from harness.studies.model import Subject
+
+    file = resources.find_mission("circuit")
+    subject = Subject(file.name, file.read_text("utf-8"))
+    overrides = [Override("loading/take-off-mass", "110 t", "a study", 1)]
+    result = kind.run_case(subject, overrides, 1)
+    assert result.keys() == kind.outputs()
+    assert result["mass_kg"] == 110e3
+    assert result["elevation_m"] == pytest.approx(1470 * 0.3048, abs=1.0)
+    assert result["distance_35m_m"] > take_off_case(mass=110e3)["distance_35m_m"]  # thinner air at Munich
