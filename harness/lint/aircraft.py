@@ -53,6 +53,8 @@ def declared(root: Path, aircraft: str) -> set[str]:
 @lru_cache(maxsize=8)
 def _check(root: Path, aircraft: str, _stamps: tuple[tuple[str, int, int], ...]) -> None:
     files, faults = _files(root, aircraft)
+    if faults:  # a missing file explains everything else that is not found
+        raise InputErrors(faults)
     known = OWN_PROPERTIES | {name for _, tree in files for name in _made(tree)}
     for path, tree in files:
         for element, what, remedy in itertools.chain(

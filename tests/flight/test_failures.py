@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -337,22 +338,23 @@ def test_two_flights_into_one_folder_do_not_meet(tmp_path: Path, repository: Pat
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("changed", "said"),
     [
-        ("<system name='wheels'>", "systems/wheels.xml:"),
-        ("<system name='wheels'/>", "gear/main-wow"),
-        (None, "wheels.xml"),
+        (lambda _: '<system name="wheels">', "systems/wheels.xml:"),
+        (lambda text: text.replace("gear/main-wow", "gear/main-wov"), "gear/main-wow"),
+        (lambda _: None, "wheels.xml"),
     ],
     ids=["malformed", "an output missing", "a file missing"],
 )
 def test_an_aircraft_that_jsbsim_cannot_load_is_refused(
-    content: str | None, said: str, tmp_path: Path, repository: Path
+    changed: Callable[[str], str | None], said: str, tmp_path: Path, repository: Path
 ) -> None:
     for folder in ("harness", "aircraft", "engine", "systems", "missions"):
         shutil.copytree(
             repository / folder, tmp_path / folder, ignore=shutil.ignore_patterns("__pycache__", "analysis")
         )
     wheels = tmp_path / "systems" / "wheels.xml"
+    content = changed(wheels.read_text("utf-8"))
     wheels.unlink() if content is None else wheels.write_text(content, "utf-8")
     command = [sys.executable, "-P", "-m", "harness", "fly", BASE, "--out", str(tmp_path / "out")]
     environment = {**os.environ, "PYTHONPATH": str(tmp_path)}

@@ -24,6 +24,7 @@ TREAD_MASS = INERTIA / RADIUS**2  # a main wheel as its tread feels it
 NOSE_TREAD_MASS = 5.0 / 0.42**2
 LEGS, WHEELS = range(1, 7), range(2, 14)
 FUEL = 31400.0  # kg, makes 110 t
+SHARES = (11.4, 13.4, 13.4, 3.0, 2.2, 2.2, 3.0)  # of the tanks, about as they are large
 STANDING = 4.333  # m, the centre of gravity above the ground at 110 t
 DRY, WET, GRAVEL, GRASS, SOFT = range(5)
 ROLLING = {DRY: 0.02, WET: 0.02, GRAVEL: 0.04, GRASS: 0.05, SOFT: 0.10}
@@ -52,9 +53,8 @@ def start(repository: Path) -> Start:
         fdm.disable_output()
         for name, value in INTEGRATORS.items():
             fdm[name] = value
-        capacities = [fdm[f"fuel/tank-capacity-kg[{tank}]"] for tank in range(7)]
-        for tank, capacity in enumerate(capacities):
-            fdm[f"propulsion/tank[{tank}]/contents-lbs"] = FUEL * capacity / sum(capacities) / LB
+        for tank, share in enumerate(SHARES):
+            fdm[f"propulsion/tank[{tank}]/contents-lbs"] = FUEL * share / sum(SHARES) / LB
         fdm["ground/surface"] = surface
         fdm["ic/psi-true-deg"] = degrees(EAST)
         fdm["ic/h-agl-ft"] = height / FT
