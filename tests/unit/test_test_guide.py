@@ -30,6 +30,12 @@ def test_the_guide_of_every_aircraft_can_be_read_and_names_its_sources(repositor
         assert all(len(row.source) > 5 and len(row.tolerance_source) > 5 for row in rows)
 
 
+def test_the_guide_of_the_gta_has_all_validation_points(repository: Path) -> None:
+    rows = read_guide(repository / "aircraft" / "gta" / "qualification.csv", MANOEUVRES)
+    points = {row.id[:3] for row in rows if row.id.startswith("V")}
+    assert points == {f"V{number:02d}" for number in range(1, 35)}
+
+
 @pytest.mark.parametrize(
     ("target", "tolerance", "expected"),
     [
