@@ -14,12 +14,14 @@ from typing import cast
 
 from harness.errors import InputError, InputErrors, did_you_mean
 from harness.lint.words import COMPONENTS, KNOWN, OPERATIONS, OWN_PROPERTIES, SECTIONS
-from harness.xml_source import Element, read_document, shorten
+from harness.xml_source import Element, children, read_document, shorten
 
 NAME = re.compile(r"-?[A-Za-z_][\w.+-]*(?:\[\d+\])?(?:/[\w.+-]+(?:\[\d+\])?)+")
 INDEX = re.compile(r"\[\d+\]")
 READERS = ("property", "p", "independentVar", "input", "min", "max", "test", "condition")
-BINARY = frozenset(("min", "max"))  # operations of a function, and limits of a <clipto>
+COMPOUND = OPERATIONS - {"table", "t", "switch", "min", "max"}
+"""Operations that hold operations only; <min> and <max> are limits of a <clipto> as well."""
+FORCE_PARTS = ("magnitude", "x", "y", "z", "location-x-in", "location-y-in", "location-z-in")
 MOST_ELEMENTS = 20_000  # in one file
 KILOGRAMS = {"KG": 1.0, "LBS": 0.45359237}
 INERTIAS = ("ixx", "iyy", "izz")
@@ -112,34 +114,35 @@ def _places(root: Path, home: Path, tag: str) -> list[Path]:
 
 def _made(tree: Element) -> Iterator[str]:
     """The properties a file makes: declarations, functions, components, their outputs; without indices."""
-    for element in tree.iter("*"):
-        name = " ".join((element.get("name") or "").split())
-        parent = element.getparent()
-        inside = None if parent is None else parent.tag
-        if element.tag == "property" and element.get("value") is not None:
-            yield INDEX.sub("", (element.text or "").strip())
-        elif element.tag == "output" and inside in COMPONENTS:
-            yield INDEX.sub("", (element.text or "").strip().lstrip("-"))
-        elif inside == "channel" and name:
-            plain = INDEX.sub("", name)
+    for element in tree.iter("property", "output"):
+        text = INDEX.sub("", (element.text or "").strip())
+        if element.tag == "property":
+            if element.get("value") is not None:
+                yield text
+        elif (parent := element.getparent()) is not None and parent.tag in COMPONENTS:
+            yield text.lstrip("-")
+    for channel in tree.iter("channel"):
+        for component in children(channel):
+            plain = INDEX.sub("", " ".join((component.get("name") or "").split()))
             yield plain if "/" in plain else f"fcs/{plain.lower().replace(' ', '-')}"
-        elif element.tag in ("function", "table") and "/" in name:
-            yield INDEX.sub("", name)
-        elif element.tag in ("force", "moment") and name:
-            for part in ("magnitude", "x", "y", "z", "location-x-in", "location-y-in", "location-z-in"):
-                yield f"external_reactions/{name}/{part}"
+    for element in tree.iter("function", "table", "force", "moment"):
+        name = INDEX.sub("", " ".join((element.get("name") or "").split()))
+        if element.tag in ("function", "table"):
+            yield name
+        else:
+            yield from (f"external_reactions/{name}/{part}" for part in FORCE_PARTS)
 
 
 def _read(tree: Element) -> Iterator[tuple[Element, str]]:
     """The properties a file reads, as written."""
-    for element in tree.iter("*"):
-        declares = element.tag == "property" and element.get("value") is not None
-        if element.tag in READERS and not declares:
+    for element in tree.iter(*READERS):
+        if element.tag != "property" or element.get("value") is None:
             for name in NAME.findall(element.text or ""):
                 yield element, name
+    for element in tree.iter("test", "default", "channel"):
         for attribute in ("value", "execute"):
             text = element.get(attribute, "").strip()
-            if element.tag in ("test", "default", "channel") and NAME.fullmatch(text):
+            if NAME.fullmatch(text):
                 yield element, text
 
 
@@ -170,7 +173,7 @@ def _strange(tree: Element) -> Iterator[tuple[Element, str, str]]:
                 f"<{shorten(element.tag)}> is no component",
                 did_you_mean(element.tag, COMPONENTS, "<{}>"),
             )
-        elif inside in OPERATIONS - {"table", "t", "switch", *BINARY} and element.tag not in OPERATIONS:
+        elif inside in COMPOUND and element.tag not in OPERATIONS:
             yield (
                 element,
                 f"<{shorten(element.tag)}> is no operation",
