@@ -39,6 +39,7 @@ RANGES: dict[str, tuple[float, float, str, float, str]] = {
 class TakeOff:
     """A take-off: SI and radians. `vr` None is the scheduled one, in proportion to the stall speed.
 
+    `friction` is a factor on the rolling friction.
     Headwind is positive against the take-off, crosswind positive from the right, slope positive uphill.
     The pilot rotates at the first of his steps at or above VR: with 24 a second up to 3 m late, with 120 half a metre.
     """
@@ -54,6 +55,7 @@ class TakeOff:
     crosswind: float = 0.0
     slope: float = 0.0
     surface: Surface = "dry"
+    friction: float = 1.0
     heading: float = 0.0
     rate: int = 120
     pilot_rate: int = 24

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from harness.takeoff import card_command, options
+from harness.takeoff import card_command, charts_command, options
 from harness.units import KT
 
 if TYPE_CHECKING:
@@ -46,7 +46,9 @@ def add(parser: argparse.ArgumentParser, add_json: Callable[[argparse.ArgumentPa
     parser.add_argument("--out", metavar="DIR", help="folder for a new folder with table and picture")
     add_json(parser)
     parser.set_defaults(run=run)
-    card_command.add(parser.add_subparsers(dest="topic", metavar="TOPIC", title="more"), add_json)
+    topics = parser.add_subparsers(dest="topic", metavar="TOPIC", title="more")
+    card_command.add(topics, add_json)
+    charts_command.add(topics, add_json)
 
 
 def run(chosen: argparse.Namespace) -> int:

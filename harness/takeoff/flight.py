@@ -210,6 +210,8 @@ def prepared(
     preset = lined_up(manual.flap(case.flaps).position)
     if case.surface == "wet":
         preset["ground/surface"] = WET
+    if case.friction != 1.0:
+        preset["ground/rolling_friction-factor"] = case.friction
     if case.slope:
         preset |= slope(case.slope, case.mass, case.heading)
     pilot, plant = prepare(

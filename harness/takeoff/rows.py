@@ -80,3 +80,8 @@ def take_off_case(**quantities: Any) -> dict[str, Any]:  # noqa: ANN401  the fie
     Raises InputErrors for what cannot be flown, FlightError for what did not fly.
     """
     return row(fly_take_off(TakeOff(**quantities)))
+
+
+def case_row(case: TakeOff) -> dict[str, Any]:
+    """Fly a take-off and return its row."""
+    return row(fly_take_off(case))

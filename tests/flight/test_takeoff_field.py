@@ -7,6 +7,7 @@ import pytest
 
 from harness.takeoff.card import card
 from harness.takeoff.case import Happening, TakeOff
+from harness.takeoff.charts import early_rotation, sensitivities
 from harness.takeoff.field import AT_V1, FieldFlights, Runway
 from harness.takeoff.flight import CS25_SCREEN, fly_take_off
 from harness.takeoff.page import page
@@ -94,6 +95,21 @@ def test_card():
     assert json.loads(json.dumps(data)) == data
     assert "NOT POSSIBLE" in card_text(data)
     assert "TAKE-OFF NOT POSSIBLE" in page(data)
+
+
+def test_rotating_too_early_lengthens_by_at_most_one_per_cent():
+    """AMC 25.107(e)(4): all engines, VR 10 kt or 7 % early."""
+    for mass in (89e3, 124e3):
+        assert early_rotation(replace(HEAVY, mass=mass))["longer"] <= 0.01
+
+
+@pytest.mark.slow
+def test_sensitivities():
+    """Smooth at half their steps, with the signs of nature."""
+    found = {one.name: one for one in sensitivities(HEAVY, 2)}
+    assert all(one.smooth for one in found.values())
+    longer = {name for name, one in found.items() if one.derivative > 0}
+    assert longer == {"mass", "temperature", "elevation", "slope", "VR", "friction"} | (longer & {"flap"})
 
 
 def test_a_runway_of_the_database_and_its_day():
