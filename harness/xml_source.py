@@ -21,6 +21,7 @@ Element = etree._Element  # noqa: SLF001 -- lxml has no public name for it
 Value = TypeVar("Value")
 
 LARGEST_FILE = 1_000_000  # bytes; a mission is a few kilobytes
+MOST_ATTRIBUTES = 50  # of one element; libxml2 takes time with the square of them
 MOST_ELEMENTS = 2_000  # the validator takes time with the square of them
 MOST_FAULTS = 100  # enough to see that this file is not what it should be
 SCHEMAS = Path(__file__).parent / "schema"
@@ -241,6 +242,9 @@ def read_document(
             line=1,
             remedy="delete it; the files of harness need none",
         )
+    crowded = next((element for element in root.iter() if len(element.attrib) > MOST_ATTRIBUTES), None)
+    if crowded is not None:
+        raise InputError(f"an element has more than {MOST_ATTRIBUTES} attributes", file=path, line=line_of(crowded))
     if sum(1 for _ in root.iter()) > most_elements:
         raise InputError(f"has more than {most_elements:,} elements", file=path, line=1)
     return root

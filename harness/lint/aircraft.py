@@ -57,12 +57,15 @@ def _check(root: Path, aircraft: str, _stamps: tuple[tuple[str, int, int], ...])
     files, faults = _files(root, aircraft)
     if faults:  # a missing file explains everything else that is not found
         raise InputErrors(faults)
+    told = set()
     known = OWN_PROPERTIES | {name for _, tree in files for name in _made(tree)}
     for path, tree in files:
         for element, what, remedy in itertools.chain(
             _strange(tree), _unknown(tree, known), _tables(tree), _tanks(tree), _masses(tree)
         ):
-            faults.append(InputError(what, file=path, line=_line(element), remedy=remedy))
+            if what not in told:  # once, at its first place
+                told.add(what)
+                faults.append(InputError(what, file=path, line=_line(element), remedy=remedy))
     if faults:
         raise InputErrors(faults)
 
