@@ -244,7 +244,9 @@ def read_document(
         )
     crowded = next((element for element in root.iter() if len(element.attrib) > MOST_ATTRIBUTES), None)
     if crowded is not None:
-        raise InputError(f"an element has more than {MOST_ATTRIBUTES} attributes", file=path, line=line_of(crowded))
+        raise InputError(
+            f"an element has more than {MOST_ATTRIBUTES} attributes", file=path, line=line_of(crowded)
+        )
     if sum(1 for _ in root.iter()) > most_elements:
         raise InputError(f"has more than {most_elements:,} elements", file=path, line=1)
     return root
