@@ -61,7 +61,7 @@ def take_offs(
                 label=curve.label,
             )
             axes.annotate(
-                curve.label.partition(",")[0],
+                "" if curve.dashed else curve.label,
                 (curve.along[-1], curve.height[-1]),
                 xytext=(2, 3),
                 textcoords="offset points",
