@@ -209,19 +209,28 @@ def read_bytes(path: Path, largest: int = LARGEST_FILE) -> bytes:
 
 
 def read_document(
-    path: Path, *, text: str | None = None, largest: int = LARGEST_FILE, most_elements: int = MOST_ELEMENTS
+    path: Path,
+    *,
+    text: str | None = None,
+    largest: int = LARGEST_FILE,
+    most_elements: int = MOST_ELEMENTS,
+    entities: bool = False,
 ) -> Element:
-    """The root of a document of at most these sizes; of `text` if given, of the file otherwise. Raises InputError."""
-    parser = etree.XMLParser(
-        resolve_entities=False,
-        no_network=True,
-        load_dtd=False,
-        dtd_validation=False,
-        huge_tree=largest > LARGEST_FILE,
-        remove_pis=True,
-    )
+    """The root of a document of at most these sizes; of `text` if given, of the file otherwise. Raises InputError.
+
+    With `entities` it may have a document type, whose entities are put in unless they are in other files.
+    """
     try:
         document = read_bytes(path, largest) if text is None else text.encode()
+        parser = etree.XMLParser(
+            resolve_entities="internal" if entities else False,
+            no_network=True,
+            load_dtd=False,
+            dtd_validation=False,
+            huge_tree=largest > LARGEST_FILE
+            and b"<!ENTITY" not in document,  # it allows entities of any size
+            remove_pis=True,
+        )
         root = etree.fromstring(document, parser)
     except etree.XMLSyntaxError as error:
         # A column is "line 3, column 7" at the end of the message: the line is told before it.
@@ -229,13 +238,17 @@ def read_document(
         line = max(error.lineno or 1, 1)
         remedy = 'each <tag> ends with its </tag> or />, each attribute reads name="value"; no < or & inside'
         if "ntity" in what:
-            remedy = "no entities are allowed; delete their <!DOCTYPE ...>"
+            remedy = (
+                "an entity is not known or too large"
+                if entities
+                else "no entities are allowed; delete their <!DOCTYPE ...>"
+            )
         raise InputError(
             f"is not well-formed XML: {shorten(what, 200)}", file=path, line=line, remedy=remedy
         ) from None
     except (ValueError, LookupError, etree.LxmlError) as error:
         raise InputError(f"is not readable XML: {shorten(error, 200)}", file=path, line=1) from None
-    if cast(Any, root.getroottree().docinfo).doctype:
+    if not entities and cast(Any, root.getroottree().docinfo).doctype:
         raise InputError(
             "a document type (<!DOCTYPE ...>) is not allowed: it can pull in entities and other files",
             file=path,

@@ -37,7 +37,7 @@ def read_script(name: str, root: Path | None) -> Script:
     Raises InputError.
     """
     path = resources.scripts().get(name, Path(name))
-    document = read_document(path, largest=LARGEST_SCRIPT, most_elements=MOST_ELEMENTS)
+    document = read_document(path, largest=LARGEST_SCRIPT, most_elements=MOST_ELEMENTS, entities=True)
     if document.tag != "runscript":
         raise InputError(
             f"the document is a <{document.tag}>, not a <runscript>",
@@ -82,7 +82,7 @@ def _root_of(path: Path, aircraft: str, given: Path | None, line: int) -> Path:
 def stage(script: Script, folder: Path, *, sockets: bool) -> Path:
     """Make a root in `folder` for a run of the script, and return the script's file in it. Raises OSError."""
     main = script.root / "aircraft" / script.aircraft / f"{script.aircraft}.xml"
-    aircraft = read_document(main, largest=LARGEST_SCRIPT, most_elements=MOST_ELEMENTS)
+    aircraft = read_document(main, largest=LARGEST_SCRIPT, most_elements=MOST_ELEMENTS, entities=True)
     _replace(main, script.root, folder, _tamed(aircraft, sockets=sockets))
     path = script.path.resolve()
     home = script.root if path.is_relative_to(script.root) else path.parent

@@ -1,7 +1,10 @@
 """JSBSim scripts replayed: ours and others', what they may not do, and what becomes of those that fail."""
 
+import importlib.util
 import json
+import sys
 from pathlib import Path
+from types import ModuleType
 
 import jsbsim
 import numpy as np
@@ -78,20 +81,6 @@ def test_outputs_stay_in_the_run_and_sockets_stay_shut(tmp_path: Path) -> None:
     assert "41234" not in staged
 
 
-def test_a_shipped_script_ends_as_with_the_stock_program(tmp_path: Path) -> None:
-    file = SHIPPED / "scripts" / "c1721.xml"
-    run, stopped, _ = replay(str(file), tmp_path, Choices(end=5.0))
-    assert stopped is None
-    fdm = jsbsim.FGFDMExec(str(SHIPPED))
-    fdm.set_debug_level(0)
-    fdm.set_output_path(str(tmp_path))
-    assert fdm.load_script("scripts/c1721.xml")
-    fdm.run_ic()
-    while fdm.run() and fdm.get_sim_time() <= 5.0:
-        pass
-    assert run.summary["end_state"] == {name: fdm[name] for name in run.summary["end_state"]}
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -159,3 +148,87 @@ def test_a_state_that_is_no_number_is_named(tmp_path: Path) -> None:
 def test_export_needs_the_record_of_a_flight(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["export", str(tmp_path)]) == 2
     assert "not the folder of a run" in capsys.readouterr().err
+
+
+SHIPPED_SCRIPTS = (
+    "737_cruise",
+    "c1723",
+    "c3104",
+    "737_cruise_steady_turn_simplex",
+    "ball_orbit",
+    "weather-balloon",
+)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["plotfile", "Short_S23_1", *(pytest.param(name, marks=pytest.mark.slow) for name in SHIPPED_SCRIPTS)],
+)
+def test_a_shipped_script_ends_as_with_the_stock_program(name: str, shipped: ModuleType) -> None:
+    both = shipped.pair(SHIPPED / "scripts" / f"{name}.xml", 5.0)
+    assert both.same, both
+    assert bool(both.ours.message) == (name in {"plotfile", "737_cruise_steady_turn_simplex"})
+
+
+@pytest.fixture(scope="module")
+def shipped(repository: Path) -> ModuleType:
+    """The generator of the table in docs/scripts.md."""
+    spec = importlib.util.spec_from_file_location("shipped", repository / "docs" / "shipped_scripts.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["shipped"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_entities_of_a_script_are_put_in_but_no_flood_and_no_other_file(script: Path, tmp_path: Path) -> None:
+    plain = script.read_text("utf-8").replace('value="1"', 'value="&all;"')
+    entities = {
+        '<!ENTITY all "0.75">': "",
+        '<!ENTITY all SYSTEM "file:///etc/hostname">': "well-formed",
+        f'<!ENTITY a "{"1" * 9000}"><!ENTITY b "{"&a;" * 900}"><!ENTITY all "{"&b;" * 900}">': "mplification",
+    }
+    for entity, refusal in entities.items():
+        script.write_text(
+            plain.replace("<runscript", f"<!DOCTYPE runscript [{entity}]>\n<runscript"), "utf-8"
+        )
+        if refusal:
+            with pytest.raises(InputError, match=refusal):
+                replay(str(script), tmp_path / "runs", Choices())
+        else:
+            run, _, _ = replay(str(script), tmp_path / "runs", Choices())
+            assert run.history["command_flap"][-1] == 0.75
+
+
+@pytest.mark.parametrize("name", ["gta-elevator-doublet", "gta-aileron-step", "gta-rudder-kick"])
+@pytest.mark.slow
+def test_a_step_in_cruise_starts_from_steady_flight_and_shows_its_mode(name: str, tmp_path: Path) -> None:
+    run, stopped, _ = replay(name, tmp_path, Choices())
+    assert stopped is None
+    time = run.history["time"]
+    column, steady, least, most = {
+        "gta-elevator-doublet": ("alpha", 0.1, 3.0, 7.5),
+        "gta-aileron-step": ("roll_rate", 0.1, -1.5, 9.5),
+        "gta-rudder-kick": ("beta", 0.1, -4.0, 3.5),
+    }[name]
+    values = np.degrees(run.history[column])
+    before, after = values[(time > 120) & (time < 125)], values[time > 125]
+    assert np.ptp(before) < steady
+    assert least < after.min() < after.max() < most
+    assert np.ptp(after) > 0.8 * (most - least) / 2
+
+
+@pytest.mark.slow
+def test_a_rejected_take_off_stops_on_the_runway(tmp_path: Path) -> None:
+    run, stopped, _ = replay("gta-rejected-takeoff", tmp_path, Choices())
+    assert stopped is None
+    names = [event.name for event in run.events]
+    assert names[-4:] == [
+        "the left outer engine fails",
+        "rejected: idle, brakes, spoilers",
+        "reverse of the inner engines",
+        "stopped",
+    ]
+    assert abs(np.ptp(run.history["longitude"])) * 6.4e6 * np.cos(0.87) < 10.0
+    assert run.history["tas"][-1] < 0.1
