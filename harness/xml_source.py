@@ -223,7 +223,7 @@ def read_document(
     try:
         document = read_bytes(path, largest) if text is None else text.encode()
         parser = etree.XMLParser(
-            resolve_entities="internal" if entities else False,
+            resolve_entities=cast(bool, "internal") if entities else False,
             no_network=True,
             load_dtd=False,
             dtd_validation=False,
