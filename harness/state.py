@@ -73,7 +73,7 @@ values: Callable[[State], tuple[float, ...]] = attrgetter(*FIELDS)
 MOTION: tuple[str, ...] = tuple(field.name for field in fields(Motion))
 MEDIUM_PERIOD = 12  # pilot steps: 2 Hz
 SLOW_PERIOD = 24
-STEADY_CLIMB = 1.0  # m/s
+WELL_CLEAR = 600.0  # m above the ground
 STEADY_BANK = 0.02  # rad
 LOW = 100.0  # m above the ground
 BRISK = 15.0  # m/s: faster than taxiing
@@ -87,14 +87,14 @@ def close_to_ground(height: float, cas: float) -> bool:
 def rest(state: Motion, step: int) -> int:
     """Pilot steps from `step` until the outer loops turn and Motion is renewed again.
 
-    1 near the runway, else to the next multiple of a second in steady level flight, of half a second elsewhere: the log
+    1 near the runway, else to the next multiple of a second with wings level aloft, of half a second elsewhere: the log
     records on multiples too, and so never an older position than its time.
     """
     period = MEDIUM_PERIOD
     if state.height < LOW:
         if state.cas > BRISK:
             return 1
-    elif -STEADY_BANK < state.roll < STEADY_BANK and -STEADY_CLIMB < state.vertical_speed < STEADY_CLIMB:
+    elif state.height > WELL_CLEAR and -STEADY_BANK < state.roll < STEADY_BANK:
         period = SLOW_PERIOD
     return (
         1 if step % 2 else period - step % period

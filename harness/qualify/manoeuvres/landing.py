@@ -17,11 +17,16 @@ GLIDE = radians(-3.0)
 FLARE = 12.0  # m, wheels: the sink rate is reduced from here
 FIRM = 1.5  # m/s of sink at touchdown: a landing for distance, half of what CS-25.473 allows
 PITCH_PER_SINK = 0.045  # rad per m/s
+ACTION = 1.0  # s
 PITCH_INTEGRAL = 0.03  # rad per m
 
 
 def landing(aircraft: Aircraft, condition: Condition) -> Outcome:
-    """Distance from the screen to standstill: idle in the flare, then spoilers, reverse and full brakes."""
+    """Distance from the screen to standstill: idle in the flare, spoilers by themselves, then brakes and reverse.
+
+    Each action of the pilot takes its second after touchdown, first the brakes, then reverse: the least that FAA
+    AC 25-7 allows for a landing distance (recalled).
+    """
     bench = aircraft.loaded(condition)
     bench.park()
     standing = bench["height"]
@@ -37,20 +42,22 @@ def landing(aircraft: Aircraft, condition: Condition) -> Outcome:
     bench.put("ap/yaw-mode", 1.0)
     pitch = balanced.attitude.pitch
     held = [0.0]  # the part of the pitch attitude that stays, rad
-    touched: list[float] = []  # the sink rate at touchdown, m/s
+    touched: list[float] = []  # the sink rate at touchdown, m/s, and when
 
-    def pilot(_: float) -> None:
+    def pilot(time: float) -> None:
         height = bench["height"] - standing
         if bench["main_on_ground"] > 0 and not touched:
-            touched.append(-bench["vertical_speed"])
+            touched.extend((-bench["vertical_speed"], time))
         if touched:
             bench.put("ap/pitch-target-rad", 0.0)
             bench.put("ap/yaw-mode", 0.0)
             bench.put("fcs/spoiler-cmd-norm", 1.0)
-            bench.levers(-1.0)
             driver.steer(nose_wheel=bench["nose_on_ground"] > 0)
-            if bench["nose_on_ground"] > 0:
+            since = time - touched[1]
+            if since >= ACTION and bench["nose_on_ground"] > 0:
                 bench.brakes(1.0)
+            if since >= 2 * ACTION:
+                bench.levers(-1.0)
             return
         wanted = condition.tas * GLIDE
         if height < FLARE:
