@@ -113,6 +113,8 @@ class FieldFlights:
             if short <= SHORT:
                 break
             self._rotate_at(case, self.speeds.vr + short)
+        if case.vr is None and self.slowest_v1 > self.speeds.vr:  # VR is at least V1, CS 25.107(e)(1)(i)
+            self._rotate_at(case, self.slowest_v1)
 
     def _rotate_at(self, case: TakeOff, vr: float) -> None:
         self.speeds = self.speeds._replace(vr=vr)

@@ -18,7 +18,7 @@ from harness.takeoff.flight import TIME_LIMIT, prepared
 from harness.units import FT
 
 DEVIATION = 30 * FT  # CS 25.149(e): the most the path may leave the line, rudder alone
-SLOWEST, FASTEST, UPWARDS = 46.0, 85.0, 4.0  # m/s: VMCG lies between, looked for in these steps
+SLOWEST, FASTEST, UPWARDS = 50.0, 85.0, 2.0  # m/s: VMCG lies between, looked for in these steps
 BEGUN = 2.0  # m/s beyond the failure the path has left the line
 ROLL_ON = 14.0  # m/s beyond it the path is parallel to the line again, or lost
 TOLERANCE = 0.1  # m/s
