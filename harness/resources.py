@@ -54,6 +54,14 @@ def find_study(study: str | PathLike[str]) -> Path:
     return _find("study", study, studies())
 
 
+def find_script(script: str | PathLike[str]) -> Path:
+    """The file of a JSBSim script given by name or by path.
+
+    Raises InputError when there is none.
+    """
+    return _find("script", script, scripts())
+
+
 def _find(noun: str, wanted: str | PathLike[str], known: dict[str, Path]) -> Path:
     text = fspath(wanted)
     if text in known:

@@ -37,6 +37,7 @@ _ANY_AIRCRAFT = {
 }
 _COLUMNS = dict(zip(FIELDS, STATE, strict=True)) | _ANY_AIRCRAFT
 POSITION_AND_ATTITUDE = ("latitude", "longitude", "altitude", "roll", "pitch", "heading")
+_LOCATED = re.compile(r"(?:In file )?(/.+?):(?: line )?(\d+):?\s+(.*)", re.DOTALL)
 _NOTICE = re.compile(r"(?P<name>.*?) \(Event \d+\) executed at time: (?P<time>\S+)(?P<rest>.*)", re.DOTALL)
 
 
@@ -123,13 +124,21 @@ def _load(order: Order, messages: "_Notices") -> jsbsim.FGFDMExec:
     try:
         loaded = fdm.load_script(str(order.script), order.dt)
     except jsbsim.BaseError as error:
-        raise InputError(f"JSBSim refuses the script: {error}") from error
+        raise _refused(str(error)) from error
     if not loaded:
-        said = "\n    ".join(messages.serious) or "no reason given"
-        raise InputError(f"JSBSim refuses the script: {said}")
+        raise _refused("\n    ".join(messages.serious) or "no reason given")
     if fdm.get_delta_t() <= 0:
         raise InputError("the script has no step", file=order.script, remedy="give one: --rate 120")
     return fdm
+
+
+def _refused(said: str) -> InputError:
+    """What JSBSim said, as file, line and message where it gives them."""
+    found = _LOCATED.match(said.strip())
+    what = "JSBSim refuses the script"
+    if found:
+        return InputError(f"{what}: {' '.join(found[3].split())}", file=found[1], line=int(found[2]))
+    return InputError(f"{what}: {said.strip()}")
 
 
 def _set(fdm: jsbsim.FGFDMExec, settings: Sequence[tuple[str, float]]) -> None:
@@ -158,7 +167,7 @@ def _step(fdm: jsbsim.FGFDMExec, order: Order, record: "_Record") -> FlightError
         try:
             going = run()
         except jsbsim.BaseError as error:
-            return FlightError(f"JSBSim stopped: {error}", time=now(), phase="script")
+            return FlightError(f"JSBSim stopped: {str(error).strip()}", time=now(), phase="script")
         frames += 1
         if frames == record.due:
             record.take(frames)

@@ -54,7 +54,7 @@ def compare(run: Run, reference: Run) -> Comparison:
     columns = {name: (ours[name][mine], theirs[name][its]) for name in POSITION + ATTITUDE}
     return Comparison(
         identical=all(np.array_equal(a, b) for a, b in columns.values())
-        and len(pairs) == np.count_nonzero(theirs["time"] > 0),
+        and len(pairs) == int(np.count_nonzero(theirs["time"] > 0)),
         max_position_m=_farthest([columns[name] for name in POSITION]),
         max_attitude_deg=degrees(
             max(abs(wrap(a - b)) for name in ATTITUDE for a, b in zip(*columns[name], strict=True))

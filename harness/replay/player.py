@@ -3,6 +3,7 @@
 import json
 import os
 import platform
+import re
 import shutil
 import signal
 import subprocess
@@ -22,7 +23,7 @@ from harness.errors import FlightError, InputError, OutputError
 from harness.log import Run, RunFolder, read_run
 from harness.replay.child import RESULT
 from harness.replay.compare import Comparison, compare, frames_of
-from harness.replay.script import Script, read_script, stage
+from harness.replay.script import Script, line_naming, read_script, stage
 
 SCHEMA = 1
 LIMIT = 600.0  # s of computing: an 80 min mission takes 20
@@ -60,7 +61,7 @@ def replay(
         begin = time.perf_counter()
         result = _play(script, folder.path, choices, at)
         wall_time = time.perf_counter() - begin
-        stopped = _stop(result)
+        stopped = _stop(result, script)
         run = read_run(folder.path)
         run = replace(run, summary=_summary(script, run, result, wall_time, stopped))
         (folder.path / "summary.json").write_text(json.dumps(run.summary, indent=2) + "\n", "utf-8")
@@ -94,11 +95,9 @@ def _play(script: Script, folder: Path, choices: Choices, at: Sequence[int]) -> 
         said, code = _run_child(order, folder, choices.limit)
         found = folder / RESULT
         if not found.exists():
+            last = _original(said, script, staged, place).partition("what():")[2].strip()
             raise FlightError(
-                _how(code, choices.limit),
-                time=0.0,
-                phase="script",
-                achieved=_original(said, script, staged, place),
+                _how(code, choices.limit), time=0.0, phase="script", knob=last and f"it said: {last}"
             )
         result: dict[str, Any] = json.loads(found.read_text("utf-8"))
         found.unlink()
@@ -157,10 +156,13 @@ def _original(text: str, script: Script, staged: Path, place: str) -> str:
     return text.replace(str(staged), str(script.path)).replace(place, str(script.root))
 
 
-def _stop(result: dict[str, Any]) -> FlightError | None:
+def _stop(result: dict[str, Any], script: Script) -> FlightError | None:
     if "stopped" not in result:
         return None
     kind, what, moment, knob = result["stopped"]
+    missing = re.search(r'[Pp]roperty,? "?([^\s"]+)"? (?:does not exist|is defined)', what)
+    if missing and (line := line_naming(script, missing[1])):
+        knob = f"{script.path}:{line} names it"
     error: FlightError = getattr(errors, kind)(what, time=moment, phase="script", knob=knob)
     return error
 

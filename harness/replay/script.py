@@ -36,7 +36,7 @@ def read_script(name: str, root: Path | None) -> Script:
     Without a `root` it is the nearest folder above the script that has its aircraft, else the harness's own.
     Raises InputError.
     """
-    path = resources.scripts().get(name, Path(name))
+    path = resources.find_script(name)
     document = read_document(path, largest=LARGEST_SCRIPT, most_elements=MOST_ELEMENTS, entities=True)
     if document.tag != "runscript":
         raise InputError(
@@ -77,6 +77,14 @@ def _root_of(path: Path, aircraft: str, given: Path | None, line: int) -> Path:
         line=line,
         remedy=did_you_mean(aircraft, set(known)) or "give the JSBSim root that has it: --root DIR",
     )
+
+
+def line_naming(script: Script, name: str) -> int:
+    """The first line of the script whose element names a property; 0 when none does."""
+    for element in script.document.iter("property", "set", "condition", "independentVar"):
+        if name in (element.get("name", ""), *(element.text or "").split()):
+            return line_of(element)
+    return 0
 
 
 def stage(script: Script, folder: Path, *, sockets: bool) -> Path:

@@ -88,6 +88,7 @@ def test_outputs_stay_in_the_run_and_sockets_stay_shut(tmp_path: Path) -> None:
         (('aircraft="gta"', 'aircraft="gtaa"'), 'no aircraft "gtaa"'),
         (('dt="0.005"', 'dt="quick"'), "is not a number"),
         (('initialize="parked"', 'initialize="flying"'), "could not be read"),
+        (("sim-time-sec ge", "sim-time-sec gee"), 'test.xml:6: .*"gee" does not exist'),
     ],
 )
 def test_what_is_no_script_is_refused_with_its_file(
@@ -125,6 +126,18 @@ def test_a_script_that_aborts_jsbsim_does_not_take_us_along(tmp_path: Path, scri
         replay(str(script), tmp_path / "runs", Choices(root=root))
     assert caught.value.exit_code == 3
     assert "ended the process" in str(caught.value)
+    assert "no/such does not exist" in str(caught.value)
+
+
+def test_a_property_that_is_not_there_is_told_with_its_line(script: Path, tmp_path: Path) -> None:
+    script.write_text(SCRIPT.format(run="").replace("simulation/sim-time-sec ge", "fcs/flop ge"), "utf-8")
+    _, stopped, _ = replay(str(script), tmp_path / "runs", Choices())
+    assert f"{script}:6 names it" in str(stopped)
+
+
+def test_a_name_that_is_no_script_is_answered_with_those_there_are(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="did you mean gta-takeoff"):
+        replay("gta-takeof", tmp_path, Choices())
 
 
 def test_a_script_without_an_end_is_stopped_by_its_limit(script: Path, tmp_path: Path) -> None:
