@@ -26,7 +26,7 @@ def test_help_comes_at_once(harness: Command) -> None:
 
 
 def test_version(harness: Command) -> None:
-    assert harness("--version").stdout == "harness 0.1.0\n"
+    assert harness("--version").stdout == "harness 0.2.0\n"
 
 
 def test_no_command_shows_the_help_and_is_wrong_usage(harness: Command) -> None:
