@@ -84,7 +84,7 @@ def _play(script: Script, folder: Path, choices: Choices, at: Sequence[int]) -> 
         order = {
             "root": place,
             "script": str(staged),
-            "outputs": str(folder),
+            "outputs": str(folder.resolve()),
             "dt": 1.0 / choices.rate if choices.rate else 0.0,
             "end": min(choices.end, sys.float_info.max),
             "limit": choices.limit,
@@ -124,6 +124,7 @@ def _run_child(order: dict[str, Any], folder: Path, limit: float) -> tuple[str, 
             stdout=stream,
             stderr=stream,
             env={**os.environ, "PYTHONPATH": paths},
+            cwd=folder,  # JSBSim writes linear models where it stands
         )
         try:
             child.communicate(json.dumps(order).encode(), timeout=limit + GRACE)
