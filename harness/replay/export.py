@@ -22,6 +22,9 @@ FEW = 4
 """A property written more often than this is set from a table in every frame; others by events. Few events cost less
 than the table and leave what the aircraft itself writes to the property alone."""
 
+SET_BACK = frozenset({"payload/release"})
+"""Commands that the aircraft itself sets back when they are carried out: never held by a table."""
+
 Series = list[tuple[int, float]]
 """Steps and the values written there."""
 
@@ -37,7 +40,7 @@ def script_of(run: Run, inputs: Inputs) -> str:
     dt = 1.0 / inputs.rate
     frames = inputs.steps * inputs.frames_per_step
     series = _series(inputs.writes)
-    often = {name: steps for name, steps in series.items() if len(steps) > FEW}
+    often = {name: steps for name, steps in series.items() if len(steps) > FEW and name not in SET_BACK}
     rarely = [write for write in inputs.writes if write.step > 0 and write.name not in often]
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',

@@ -5,11 +5,13 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree.ElementTree import fromstring
 
 import pytest
 
 from harness.cli import main
-from harness.log import Run
+from harness.log import Inputs, Run
+from harness.log.inputs import Write
 from harness.replay.export import script_of, write_script
 from harness.session import Session
 from harness.units import FT
@@ -29,6 +31,19 @@ WIND = ("environment/wind-from=300 deg true", "environment/wind-speed=20 kt")
 FAILURES = """<failures>
   <failure name="engine 1" phase="ENR.CRS"><when quantity="time-in-phase" at-least="20 s"/></failure>
 </failures>"""
+
+
+def test_what_the_aircraft_sets_back_is_never_held() -> None:
+    summary = {"aircraft": "gta", "mission": "drops", "harness_version": "0", "aircraft_sha256": "0"}
+    drops = [Write(24 * load, "payload/release", float(load)) for load in range(1, 8)]
+    levers = [Write(step, "fcs/throttle-cmd-norm[0]", step / 300) for step in range(300)]
+    text = script_of(Run({}, (), (), summary, ""), Inputs(120, 5, 300, [*drops, *levers]))
+    held = [element.get("name") for element in fromstring(text).findall("run/event[@name='pilot']/set")]
+    assert held == ["fcs/throttle-cmd-norm[0]"]
+    released = [
+        element for element in fromstring(text).iter("set") if element.get("name") == "payload/release"
+    ]
+    assert [element.get("value") for element in released] == [f"{load}.0" for load in range(1, 8)]
 
 
 @pytest.mark.slow
