@@ -12,7 +12,6 @@ from harness.world.local import LocalFrame, Point, filleted
 
 STOP_DECELERATION = 0.5  # m/s2, gentle; the taxi speed falls along this towards a turn or the end of the path
 LATERAL_ACCELERATION = 0.6  # m/s2 in a turn: what taxiing crews accept
-LOOK_AHEAD = 60  # path points (metres) over which the speed is planned
 OVERRUN_MARGIN = 5.0  # m past the end or the edge of the runway
 SLIP_SPEED = 10.0  # m/s: from here on the track is steered, below it the heading
 NEAREST_WINDOW = 30  # path points searched for the nearest one, so that a path may cross itself

@@ -24,7 +24,6 @@ ROUGHLY = 5.0  # m, and here in a search
 TOLERANCE = 0.02  # m/s, likewise
 VR_TRIALS, SHORT = 4, 0.1  # m/s short of V2 at 35 ft is no longer taken to be short
 STEP = 2.0  # m/s, in which V1 is looked for downwards from VR
-ACCELERATION_OVER = 1.0  # s
 FIRST_SEGMENT, SECOND_SEGMENT, FINAL_SEGMENT = (
     0.005,
     0.03,

@@ -19,16 +19,6 @@ from harness.qualify.outcome import Aircraft, Outcome, history
 LONGITUDINAL = ("tas", "alpha", "pitch_rate", "pitch", "altitude", "aero/downwash-rad")
 LATERAL = ("beta", "roll_rate", "yaw_rate", "roll", "aero/downwash-rad")
 PULSE = 0.5  # s
-DAMPED = (
-    *LATERAL[:4],
-    *(
-        f"actuator/{name}"
-        for axis in ("rudder", "aileron")
-        for name in (f"{axis}-rad", f"{axis}-rate-rad_sec")
-    ),
-    "ap/rudder-rad",
-    "ap/aileron-rad",
-)
 STEPS = 4  # frames between two records: the direct law's own step
 KICK = 0.03  # of full stick or pedal: motions of a degree or two, small enough to be linear
 DEGREE = radians(1.0)
