@@ -71,6 +71,6 @@ def study(
 
     Raises InputError, OutputError.
     """
-    from harness.studies.command import run
+    from harness.studies.conduct import run
 
     return run(study, out=out, workers=workers, cluster=cluster, resume=resume, progress=progress)

@@ -11,7 +11,7 @@ from pathlib import Path
 from stub_kind import DELAY, MARKS
 
 from harness.studies import table
-from harness.studies.command import conduct, open_study
+from harness.studies.conduct import conduct, open_study
 from harness.studies.kinds import KINDS
 
 TESTS = Path(__file__).parent

@@ -1,112 +1,69 @@
-"""A study from its name to its results folder: what `harness study` and `harness.study` share."""
+"""`harness study`: which study, on which processors, where its results go."""
 
-import json
-import tempfile
-from collections import Counter
-from collections.abc import Callable
-from os import PathLike, fspath
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+import argparse
+import sys
+from typing import TYPE_CHECKING
 
-from harness import __version__, resources
-from harness.errors import OutputError
-from harness.studies import table
-from harness.studies.engine import Outcome, Progress, run_study
-from harness.studies.journal import write_whole
-from harness.studies.model import Study
-from harness.studies.reader import read_study
+from harness.command_line import INTERRUPTED, add_json, end_as_interrupted, print_json, say
+from harness.errors import FlightError, InputError
 
 if TYPE_CHECKING:
-    import pyarrow as pa
-
-SUMMARY = "summary.json"
-OUT = "runs"
-MOST_REASONS = 10
+    from harness.command_line import Subparsers
 
 
-def open_study(study: str | PathLike[str]) -> Study:
-    """The study of that name, or in that file. Raises InputError."""
-    return read_study(resources.find_study(study))
-
-
-def default_folder(study: Study) -> Path:
-    """Where the results of a study go when nothing is said."""
-    return Path(OUT) / f"study-{study.name}"
-
-
-def conduct(
-    study: Study,
-    out: str | PathLike[str],
-    *,
-    workers: int | None = None,
-    cluster: str | None = None,
-    resume: bool = False,
-    confirm: Callable[[int], None] | None = None,
-    progress: Progress | None = None,
-) -> dict[str, Any]:
-    """Run a study into its results folder; returns its summary, which is kept there as well.
-
-    Raises what `harness.studies.engine.run_study` raises.
-    """
-    if not fspath(out):
-        raise OutputError("the output folder has no name.", remedy="choose a folder: --out DIR.")
-    folder = Path(out)
-    outcome = run_study(
-        study,
-        folder,
-        workers=workers,
-        cluster=cluster,
-        resume=resume,
-        confirm=confirm,
-        progress=progress,
+def add(commands: "Subparsers") -> None:
+    """The arguments of `harness study`."""
+    parser = commands.add_parser(
+        "study",
+        help="fly a mission many times with factors varied",
+        description="Run the cases of a study, or what is left of them, into one table.",
     )
-    kept = folder / SUMMARY
-    if not outcome.cases_run and kept.is_file():
-        try:
-            summary: dict[str, Any] = json.loads(kept.read_text("utf-8"))
-        except ValueError:
-            pass
-        else:
-            return summary
-    summary = _summary(study, outcome)
-    text = json.dumps(summary, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-    write_whole(kept, lambda path: path.write_text(text, "utf-8"))
-    return summary
+    parser.add_argument("study", metavar="STUDY", help="a name from `harness list`, or a study file")
+    parser.add_argument("--workers", metavar="N", type=int, help="processes (default: one for each core)")
+    parser.add_argument("--resume", action="store_true", help="continue, and try again what failed")
+    parser.add_argument(
+        "--cluster", metavar="ADDRESS", help="run on a Dask cluster: its scheduler, such as tcp://host:8786"
+    )
+    parser.add_argument("--out", metavar="DIR", help="folder of the results (default: runs/study-STUDY)")
+    parser.add_argument("--yes", action="store_true", help="do not ask, however many cases there are")
+    add_json(parser)
+    parser.set_defaults(run=run)
 
 
-def run(
-    study: str | PathLike[str],
-    *,
-    out: str | PathLike[str] | None,
-    workers: int | None,
-    cluster: str | None,
-    resume: bool,
-    progress: Progress | None,
-) -> "pa.Table":
-    """Run a study and return its table: see `harness.study`."""
-    opened = open_study(study)
-    with tempfile.TemporaryDirectory() as passing:
-        folder = Path(passing) / "results" if out is None else Path(out)
-        conduct(opened, folder, workers=workers, cluster=cluster, resume=resume, progress=progress)
-        return table.read(folder / table.TABLE)
+def run(chosen: argparse.Namespace) -> int:
+    """`harness study`: exit code 3 if a case did not succeed."""
+    from harness.studies.conduct import conduct, default_folder, open_study
+    from harness.studies.console import StudyProgress, describe_study
+
+    study = open_study(chosen.study)
+    end_as_interrupted()
+    folder = default_folder(study) if chosen.out is None else chosen.out
+    try:
+        with StudyProgress(study.name, sys.stderr) as progress:
+            summary = conduct(
+                study,
+                folder,
+                workers=chosen.workers,
+                cluster=chosen.cluster,
+                resume=chosen.resume,
+                confirm=None if chosen.yes else _confirm,
+                progress=progress,
+            )
+    except KeyboardInterrupt:
+        say(f"harness: interrupted\n    what was finished is in {folder}; continue with --resume")
+        return INTERRUPTED
+    if chosen.json:
+        print_json(summary)
+    else:
+        print(describe_study(summary))
+    return 0 if summary["counts"].keys() <= {"ok"} else FlightError.exit_code
 
 
-def _summary(study: Study, outcome: Outcome) -> dict[str, Any]:
-    from harness.studies.report import conclude
-
-    results = table.read(outcome.table_path)
-    rows = zip(results["status"].to_pylist(), results["reason"].to_pylist(), strict=True)
-    reasons = Counter(f"{status}: {reason}" for status, reason in rows if status != "ok")
-    return {
-        "study": study.name,
-        "mission": study.mission_path.name,
-        "design": study.design._asdict(),
-        "cases": results.num_rows,
-        "counts": dict(sorted(outcome.counts.items())),
-        "reasons": dict(reasons.most_common(MOST_REASONS)),
-        **conclude(study, results),
-        "harness_version": __version__,
-        "cases_run": outcome.cases_run,
-        "cpu_s_per_case": outcome.cpu_s / outcome.cases_run if outcome.cases_run else None,
-        "table": str(outcome.table_path),
-    }
+def _confirm(cases: int) -> None:
+    """Ask whether so many cases are meant. Raises InputError when they are not, or when nobody can be asked."""
+    remedy = "fewer levels, or --yes if they are meant"
+    if not sys.stdin.isatty():
+        raise InputError(f"the study has {cases:,} cases", remedy=remedy)
+    say(f"The study has {cases:,} cases. Go on? [y/N]")
+    if sys.stdin.readline().strip().lower() not in {"y", "yes"}:
+        raise InputError(f"the {cases:,} cases were not begun", remedy=remedy)

@@ -2,22 +2,22 @@
 
 import argparse
 import json
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from harness.command_line import OUTSIDE, add_json, print_json
 from harness.errors import InputError
 from harness.takeoff import options
 from harness.units import UnitError, parse
 
 if TYPE_CHECKING:
+    from harness.command_line import Subparsers
     from harness.takeoff.runway import Site
 
 PILOT_RATE = 120  # steps a second: V1 and VR are met within 0.03 m/s
-NOT_MET = 1
 DISTANCES = ("--tora", "--toda", "--asda")
 
 
-def add(topics: Any, add_json: Callable[[argparse.ArgumentParser], None]) -> None:  # noqa: ANN401  argparse's own class is private
+def add(topics: "Subparsers") -> None:
     """The arguments of both."""
     card = topics.add_parser(
         "card", help="required against available on a runway, and the greatest mass there"
@@ -71,7 +71,10 @@ def run_field(chosen: argparse.Namespace) -> int:
         {"mass_kg": case.mass, **field_data(field)}
         for case, field in zip(cases, fly_all(field_of, cases, workers), strict=True)
     ]
-    print(json.dumps(rows, indent=2) if chosen.json else "\n\n".join(field_text(row) for row in rows))
+    if chosen.json:
+        print_json(rows)
+    else:
+        print("\n\n".join(field_text(row) for row in rows))
     return 0
 
 
@@ -102,12 +105,11 @@ def run_card(chosen: argparse.Namespace) -> int:
     result = card(case, site.available, search=not chosen.no_greatest_mass)
     data = card_data(result, site)
     folder = _keep(data, chosen.out) if chosen.out else None
-    print(
-        json.dumps(data, indent=2)
-        if chosen.json
-        else card_text(data) + (f"\nkept in {folder}" if folder else "")
-    )
-    return 0 if result.met else NOT_MET
+    if chosen.json:
+        print_json(data)
+    else:
+        print(card_text(data) + (f"\nkept in {folder}" if folder else ""))
+    return 0 if result.met else OUTSIDE
 
 
 def _keep(data: dict[str, Any], out: str) -> Any:  # noqa: ANN401  the path of the folder

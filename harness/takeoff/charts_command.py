@@ -1,18 +1,20 @@
 """`harness takeoff sensitivities` and `harness takeoff carpet`."""
 
 import argparse
-import json
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
 
+from harness.command_line import add_json, print_json
 from harness.errors import InputError
 from harness.takeoff import options
 from harness.units import parse
 
+if TYPE_CHECKING:
+    from harness.command_line import Subparsers
+
 PILOT_RATE = 120  # steps a second: differences of distances are small
 
 
-def add(topics: Any, add_json: Callable[[argparse.ArgumentParser], None]) -> None:  # noqa: ANN401  argparse's own
+def add(topics: "Subparsers") -> None:
     """The arguments of both."""
     derivatives = topics.add_parser(
         "sensitivities", help="derivatives of the distance to 35 ft, with a check of their steps"
@@ -54,9 +56,7 @@ def run_sensitivities(chosen: argparse.Namespace) -> int:
     check(case, read_manual(case.aircraft))
     found, early = sensitivities(case, workers), early_rotation(case)
     if chosen.json:
-        print(
-            json.dumps({"sensitivities": [one._asdict() for one in found], "early_rotation": early}, indent=2)
-        )
+        print_json({"sensitivities": [one._asdict() for one in found], "early_rotation": early})
         return 0
     print(
         f"distance to 35 ft, all engines, {mass / 1e3:.1f} t: per unit, at the whole step and at half of it"
@@ -97,7 +97,7 @@ def run_carpet(chosen: argparse.Namespace) -> int:
         check(case, manual)
     rows = fly_all(case_row, cases, workers)
     if chosen.json:
-        print(json.dumps(rows, indent=2))
+        print_json(rows)
         return 0
     print("distance to 35 ft, all engines, m" + "".join(f"{mass / 1e3:>9.1f} t" for mass in masses))
     for i in range(0, len(rows), len(masses)):

@@ -7,10 +7,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from harness.command_line import add_json, print_json
 from harness.takeoff import card_command, charts_command, options
 from harness.units import KT
 
 if TYPE_CHECKING:
+    from harness.command_line import Subparsers
     from harness.takeoff.case import TakeOff
     from harness.takeoff.flight import Flown
 
@@ -28,8 +30,13 @@ COLUMNS = (
 )
 
 
-def add(parser: argparse.ArgumentParser, add_json: Callable[[argparse.ArgumentParser], None]) -> None:
-    """The arguments of `harness takeoff`."""
+def add(commands: "Subparsers") -> None:
+    """The arguments of `harness takeoff` and of its topics."""
+    parser = commands.add_parser(
+        "takeoff",
+        help="take-off distances over mass",
+        description="Fly take-offs from standstill to the screen height, one for each mass.",
+    )
     parser.add_argument(
         "--mass",
         metavar="FROM:TO:STEP",
@@ -47,8 +54,8 @@ def add(parser: argparse.ArgumentParser, add_json: Callable[[argparse.ArgumentPa
     add_json(parser)
     parser.set_defaults(run=run)
     topics = parser.add_subparsers(dest="topic", metavar="TOPIC", title="more")
-    card_command.add(topics, add_json)
-    charts_command.add(topics, add_json)
+    card_command.add(topics)
+    charts_command.add(topics)
 
 
 def run(chosen: argparse.Namespace) -> int:
@@ -69,7 +76,10 @@ def run(chosen: argparse.Namespace) -> int:
     from harness.takeoff.rows import row
 
     rows = [row(one) for one in flown]
-    print(json.dumps(rows, indent=2) if chosen.json else table(rows, [row(one) for one in beside], folder))
+    if chosen.json:
+        print_json(rows)
+    else:
+        print(table(rows, [row(one) for one in beside], folder))
     return 0
 
 

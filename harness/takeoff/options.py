@@ -4,6 +4,7 @@ import argparse
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
+from harness.command_line import add_rate
 from harness.errors import InputError
 from harness.units import UnitError, parse
 
@@ -60,14 +61,7 @@ def add_conditions(command: argparse.ArgumentParser) -> None:
         default=[],
         help=f"and one of {', '.join(WINDS)}; may be repeated",
     )
-    command.add_argument(
-        "--rate",
-        metavar="HZ",
-        type=int,
-        choices=(120, 240, 480),
-        default=120,
-        help="frames a second: 120, 240 or 480",
-    )
+    add_rate(command)
     command.add_argument("--workers", metavar="N", help="processes (default: one for each processor)")
 
 
