@@ -8,25 +8,16 @@ phase of flight, and no Python runs between the frames of the bare side.
 """
 
 import json
-import os
 import sys
-from pathlib import Path
 from time import perf_counter
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT))
-if sys.prefix == sys.base_prefix:  # not in an environment: use the project's own
-    import run
+import environment  # noqa: F401  which is to come first
 
-    if problem := run.set_up():
-        sys.exit(run.fail(*problem))
-    os.execv(run.PYTHON, [str(run.PYTHON), __file__, *sys.argv[1:]])
-
-from harness.errors import HarnessError  # noqa: E402  the environment comes first
-from harness.flight import PILOT_RATE, fly_mission, prepare  # noqa: E402
-from harness.log import Event, FlightLog, Reporter  # noqa: E402
-from harness.session import Session  # noqa: E402
-from harness.state import MEDIUM_PERIOD, SLOW_PERIOD, Commands, State  # noqa: E402
+from harness.errors import HarnessError
+from harness.flight import PILOT_RATE, fly_mission, prepare
+from harness.log import Event, FlightLog, Reporter
+from harness.session import Session
+from harness.state import MEDIUM_PERIOD, SLOW_PERIOD, Commands, State
 
 FRAME_RATE = 120
 SECONDS = 10  # of flight before its frames are repeated bare: long enough for each side to warm its caches

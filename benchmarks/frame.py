@@ -5,22 +5,13 @@ speed; blocks of half a second of flight alternate, so both meet the same machin
 """
 
 import json
-import os
 import sys
 from pathlib import Path
 from statistics import median
 from time import perf_counter
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT))
-if sys.prefix == sys.base_prefix:  # not in an environment: use the project's own
-    import run
-
-    if problem := run.set_up():
-        sys.exit(run.fail(*problem))
-    os.execv(run.PYTHON, [str(run.PYTHON), __file__, *sys.argv[1:]])
-
-import jsbsim  # noqa: E402  the environment comes first
+import environment
+import jsbsim
 
 FRAME_RATE = 120
 BLOCK = 60  # frames: half a second of flight
@@ -50,7 +41,7 @@ def in_flight(root: str, aircraft: str) -> jsbsim.FGFDMExec:
 
 def main(aircraft: str) -> None:
     """Step both in turns and print the result."""
-    pair = [in_flight(str(ROOT), aircraft), in_flight(str(Path(jsbsim.__file__).parent), "C130")]
+    pair = [in_flight(str(environment.ROOT), aircraft), in_flight(str(Path(jsbsim.__file__).parent), "C130")]
     times: tuple[list[float], list[float]] = ([], [])
     for _ in range(BLOCKS):
         for fdm, spent in zip(pair, times, strict=True):

@@ -5,27 +5,18 @@ bare loop, which writes what the flight wrote, fly it again in turns of ten seco
 """
 
 import json
-import os
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT))
-if sys.prefix == sys.base_prefix:  # not in an environment: use the project's own
-    import run
+import environment
+import jsbsim
 
-    if problem := run.set_up():
-        sys.exit(run.fail(*problem))
-    os.execv(run.PYTHON, [str(run.PYTHON), __file__, *sys.argv[1:]])
-
-import jsbsim  # noqa: E402  the environment comes first
-
-from harness.errors import HarnessError  # noqa: E402
-from harness.flight import prepare  # noqa: E402
-from harness.replay.export import script_of  # noqa: E402
-from harness.session import Session  # noqa: E402
+from harness.errors import HarnessError
+from harness.flight import prepare
+from harness.replay.export import script_of
+from harness.session import Session
 
 FRAME_RATE = 120
 BLOCK = 10 * FRAME_RATE  # frames
@@ -47,7 +38,7 @@ def main(mission: str) -> None:
         file = Path(folder) / "replay.xml"
         file.write_text(text, "utf-8")
         begin = perf_counter()
-        scripted = jsbsim.FGFDMExec(str(ROOT))
+        scripted = jsbsim.FGFDMExec(str(environment.ROOT))
         scripted.set_debug_level(0)
         scripted.load_script(str(file))
         load_time = perf_counter() - begin

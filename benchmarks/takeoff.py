@@ -9,10 +9,11 @@ two processes over that of one after the other.
 import json
 import subprocess
 import sys
-from pathlib import Path
 from resource import RUSAGE_CHILDREN, getrusage
 from statistics import median
 from time import perf_counter, process_time
+
+import environment
 
 from harness.takeoff.case import TakeOff
 from harness.takeoff.fleet import fly_all
@@ -22,14 +23,16 @@ from harness.takeoff.rows import row
 MASSES = (89e3, 96e3, 103e3, 110e3, 117e3, 124e3)
 REPEATS = 3
 FRAMES = 1200
-ROOT = Path(__file__).resolve().parents[1]
 
 
 def command() -> tuple[float, float]:
     """Wall and processor time of `harness takeoff`, s."""
     before, begin = _children(), perf_counter()
     subprocess.run(
-        [sys.executable, "-m", "harness", "takeoff", "--json"], cwd=ROOT, check=True, capture_output=True
+        [sys.executable, "-m", "harness", "takeoff", "--json"],
+        cwd=environment.ROOT,
+        check=True,
+        capture_output=True,
     )
     return perf_counter() - begin, _children() - before
 
