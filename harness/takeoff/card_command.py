@@ -55,18 +55,15 @@ def add(topics: "Subparsers") -> None:
 def run_field(chosen: argparse.Namespace) -> int:
     """`harness takeoff field`: the balanced field of each mass."""
     masses = options.read("--mass", options.masses, chosen.mass)
-    vr = options.read("--vr", options.rotation_speed, chosen.vr)
     fields = options.conditions(chosen)
     workers = options.workers(chosen.workers)
-    from harness.manual import read_manual
-    from harness.takeoff.case import TakeOff, check
+    from harness.takeoff.case import TakeOff, check_all
     from harness.takeoff.field import field_of
     from harness.takeoff.fleet import fly_all
     from harness.takeoff.text import field_data, field_text
 
-    cases = [TakeOff(mass, vr, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields) for mass in masses]
-    for case in cases:
-        check(case, read_manual(case.aircraft))
+    cases = [TakeOff(mass, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields) for mass in masses]
+    check_all(cases)
     rows = [
         {"mass_kg": case.mass, **field_data(field)}
         for case, field in zip(cases, fly_all(field_of, cases, workers), strict=True)
@@ -81,7 +78,6 @@ def run_field(chosen: argparse.Namespace) -> int:
 def run_card(chosen: argparse.Namespace) -> int:
     """`harness takeoff card`: exit code 1 when the take-off is not possible."""
     mass = options.read("--mass", parse, chosen.mass, "mass")
-    vr = options.read("--vr", options.rotation_speed, chosen.vr)
     celsius = (
         None if chosen.temperature is None else options.read("--temperature", _celsius, chosen.temperature)
     )
@@ -101,7 +97,7 @@ def run_card(chosen: argparse.Namespace) -> int:
 
     if celsius is not None:
         fields["isa_deviation"] = deviation(celsius, site.elevation)
-    case = on_site(TakeOff(mass, vr, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields), site, *wind)
+    case = on_site(TakeOff(mass, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields), site, *wind)
     result = card(case, site.available, search=not chosen.no_greatest_mass)
     data = card_data(result, site)
     folder = _keep(data, chosen.out) if chosen.out else None

@@ -1,13 +1,13 @@
 """One take-off as it is asked for, and whether it can be asked for."""
 
 from cmath import phase
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import pi
 from typing import Literal
 
 from harness.errors import InputError, InputErrors, did_you_mean
-from harness.manual import FlightManual
+from harness.manual import FlightManual, read_manual
 from harness.mission.envelope import SLOWEST_DECISION
 from harness.mission.model import STANDARD_QNH, Environment, Loading
 from harness.navigation.database import Runway
@@ -134,6 +134,13 @@ def check(case: TakeOff, manual: FlightManual) -> None:
     faults = [*_faults(case, manual)]
     if faults:
         raise InputErrors(faults)
+
+
+def check_all(cases: Sequence[TakeOff]) -> None:
+    """Check the take-offs of one aircraft before the first of them flies. Raises InputErrors."""
+    manual = read_manual(cases[0].aircraft)
+    for case in cases:
+        check(case, manual)
 
 
 def _faults(case: TakeOff, manual: FlightManual) -> Iterator[InputError]:

@@ -45,15 +45,13 @@ def add(topics: "Subparsers") -> None:
 def run_sensitivities(chosen: argparse.Namespace) -> int:
     """`harness takeoff sensitivities`."""
     mass = options.read("--mass", parse, chosen.mass, "mass")
-    vr = options.read("--vr", options.rotation_speed, chosen.vr)
     fields = options.conditions(chosen)
     workers = options.workers(chosen.workers)
-    from harness.manual import read_manual
-    from harness.takeoff.case import TakeOff, check
+    from harness.takeoff.case import TakeOff, check_all
     from harness.takeoff.charts import early_rotation, sensitivities
 
-    case = TakeOff(mass, vr, pilot_rate=PILOT_RATE, **fields)
-    check(case, read_manual(case.aircraft))
+    case = TakeOff(mass, pilot_rate=PILOT_RATE, **fields)
+    check_all([case])
     found, early = sensitivities(case, workers), early_rotation(case)
     if chosen.json:
         print_json({"sensitivities": [one._asdict() for one in found], "early_rotation": early})
@@ -74,27 +72,23 @@ def run_sensitivities(chosen: argparse.Namespace) -> int:
 def run_carpet(chosen: argparse.Namespace) -> int:
     """`harness takeoff carpet`."""
     masses = options.read("--mass", options.masses, chosen.mass)
-    warmths = options.read("--warmths", _list, chosen.warmths, "temperature-difference")
-    elevations = options.read("--elevations", _list, chosen.elevations, "length")
-    vr = options.read("--vr", options.rotation_speed, chosen.vr)
+    warmths = options.read("--warmths", options.several, chosen.warmths, "temperature-difference")
+    elevations = options.read("--elevations", options.several, chosen.elevations, "length")
     fields = options.conditions(chosen)
     workers = options.workers(chosen.workers)
-    from harness.manual import read_manual
-    from harness.takeoff.case import TakeOff, check
+    from harness.takeoff.case import TakeOff, check_all
     from harness.takeoff.charts import carpet
     from harness.takeoff.fleet import fly_all
     from harness.takeoff.rows import case_row
 
-    cases = carpet(TakeOff(masses[0], vr, **fields), masses, warmths, elevations)
+    cases = carpet(TakeOff(masses[0], **fields), masses, warmths, elevations)
     if len(cases) > options.MOST_CASES:
         raise InputError(
             f"{len(cases)} take-offs are asked for",
             file="--mass",
             remedy="fewer here; harness study for more",
         )
-    manual = read_manual("gta")
-    for case in cases:
-        check(case, manual)
+    check_all(cases)
     rows = fly_all(case_row, cases, workers)
     if chosen.json:
         print_json(rows)
@@ -105,7 +99,3 @@ def run_carpet(chosen: argparse.Namespace) -> int:
         head = f"  {line[0]['elevation_m']:.0f} m, ISA {line[0]['isa_deviation_K']:+.0f} K"
         print(f"{head:33}" + "".join(f"{row['distance_35ft_m']:>11.0f}" for row in line))
     return 0
-
-
-def _list(text: str, kind: str) -> list[float]:
-    return [parse(word, kind) for word in text.split(",")]

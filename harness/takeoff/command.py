@@ -61,12 +61,11 @@ def add(commands: "Subparsers") -> None:
 def run(chosen: argparse.Namespace) -> int:
     """`harness takeoff`: fly, print, keep."""
     masses = options.read("--mass", options.masses, chosen.mass)
-    vr = options.read("--vr", options.rotation_speed, chosen.vr)
     fields = options.conditions(chosen)
     workers = options.workers(chosen.workers)
     from harness.takeoff.case import TakeOff
 
-    cases = [TakeOff(mass, vr, **fields) for mass in masses]
+    cases = [TakeOff(mass, **fields) for mass in masses]
     beside: list[Flown] = []
     folder = None
     if chosen.out is None:
@@ -86,14 +85,11 @@ def run(chosen: argparse.Namespace) -> int:
 def _fly(
     cases: Sequence["TakeOff"], workers: int, meanwhile: Sequence[Callable[[], object]] = ()
 ) -> list["Flown"]:
-    from harness.manual import read_manual
-    from harness.takeoff.case import check
+    from harness.takeoff.case import check_all
     from harness.takeoff.fleet import fly_all
     from harness.takeoff.flight import fly_take_off
 
-    manual = read_manual(cases[0].aircraft)
-    for case in cases:  # all of them before the first flies
-        check(case, manual)
+    check_all(cases)
     return fly_all(fly_take_off, cases, workers, meanwhile)
 
 

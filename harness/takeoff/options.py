@@ -66,8 +66,13 @@ def add_conditions(command: argparse.ArgumentParser) -> None:
 
 
 def conditions(chosen: argparse.Namespace) -> dict[str, Any]:
-    """The fields of TakeOff that these options set. Raises InputError."""
-    fields: dict[str, Any] = {"start": chosen.start, "flaps": chosen.flaps, "rate": chosen.rate}
+    """The fields of TakeOff that these options and `--vr` set. Raises InputError."""
+    fields: dict[str, Any] = {
+        "vr": read("--vr", rotation_speed, chosen.vr),
+        "start": chosen.start,
+        "flaps": chosen.flaps,
+        "rate": chosen.rate,
+    }
     for option, quantity in QUANTITIES.items():
         text = getattr(chosen, option.removeprefix("--").replace("-", "_"))
         if text is not None:
@@ -92,10 +97,15 @@ def read(option: str, reader: Callable[..., Value], *arguments: str) -> Value:
         raise InputError(str(error), file=option) from None
 
 
+def several(text: str, kind: str) -> list[float]:
+    """Quantities of "0m,1000m,2000m", SI. Raises UnitError."""
+    return [parse(word, kind) for word in text.split(",")]
+
+
 def masses(text: str) -> list[float]:
     """Masses of "100t", "89t,100t" or "89t:124t:7t" (from, to, step), kg. Raises UnitError, InputError."""
     if ":" not in text:
-        return [parse(word, "mass") for word in text.split(",")]
+        return several(text, "mass")
     words = text.split(":")
     if len(words) != 3:
         raise UnitError(f'"{text}" is no range; write from:to:step, each with its unit, e.g. 89t:124t:7t')
