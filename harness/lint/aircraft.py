@@ -46,12 +46,6 @@ def check(root: Path, aircraft: str) -> None:
     _check(root, aircraft, stamps)
 
 
-def declared(root: Path, aircraft: str) -> set[str]:
-    """The properties an aircraft's files make, without indices."""
-    files, _ = _files(root, aircraft)
-    return {name for _, tree in files for name in _made(tree)}
-
-
 @lru_cache(maxsize=8)
 def _check(root: Path, aircraft: str, _stamps: tuple[tuple[str, int, int], ...]) -> None:
     files, faults = _files(root, aircraft)

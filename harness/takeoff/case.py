@@ -15,9 +15,7 @@ from harness.units import DEG, FT, HPA, KT, show
 from harness.world import earth
 
 Surface = Literal["dry", "wet"]
-SURFACES: tuple[Surface, ...] = ("dry", "wet")
 Start = Literal["brakes-held", "rolling"]
-STARTS: tuple[Start, ...] = ("brakes-held", "rolling")
 FIXED_VR = 62.5  # m/s CAS: reproduces both distances of the paper, see docs/takeoff.md
 SCHEDULED_RATIO = (
     1.08  # VR over the power-off stall speed; estimate: V2 of 1.13 is reached by 35 ft, engines all running

@@ -74,14 +74,6 @@ COLUMNS = frozenset(
 """The keys of a row, known before anything is flown."""
 
 
-def take_off_case(**quantities: Any) -> dict[str, Any]:  # noqa: ANN401  the fields of TakeOff, of several types
-    """Fly the take-off with these fields of TakeOff, SI, and return its row: a case of a study.
-
-    Raises InputErrors for what cannot be flown, FlightError for what did not fly.
-    """
-    return row(fly_take_off(TakeOff(**quantities)))
-
-
 def case_row(case: TakeOff) -> dict[str, Any]:
-    """Fly a take-off and return its row."""
+    """Fly a take-off and return its row. Raises InputErrors, FlightError."""
     return row(fly_take_off(case))

@@ -54,8 +54,3 @@ def cas_from_tas(tas: float, pressure: float, temperature: float) -> float:
 def eas_from_mach(mach: float, pressure: float) -> float:
     """Return the equivalent airspeed in m/s: the sea-level speed with the same dynamic pressure."""
     return SEA_LEVEL_SOUND * mach * sqrt(pressure / SEA_LEVEL_PRESSURE)
-
-
-def eas_from_cas(cas: float, pressure: float) -> float:
-    """Return the equivalent airspeed in m/s at a calibrated airspeed and static pressure."""
-    return eas_from_mach(mach_from_cas(cas, pressure), pressure)

@@ -10,7 +10,6 @@ from harness.loading.aircraft import read_stowage
 KG = 1.0 / 0.45359237  # pounds
 CAPACITY = (11434.310, 13457.255, 13384.250, 3032.455, 2269.435, 2269.435, 3032.455)
 FULL, HALF, LOW, DRY = 1.0, 0.5, 0.004, 0.0
-FEED = range(3, 7)
 
 
 def stand(*shares: float, height: float = 7010.0, rate: int = 120) -> Stand:

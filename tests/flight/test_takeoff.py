@@ -10,7 +10,7 @@ from harness.errors import InputErrors
 from harness.manual import read_manual
 from harness.takeoff.case import TakeOff, check
 from harness.takeoff.flight import Flown, fly_take_off
-from harness.takeoff.rows import row, take_off_case
+from harness.takeoff.rows import case_row, row
 
 # Distance to 35 m, m: AIAA 2010-7777 Results B for 89 and 124 t; between them the curve of a point mass with two
 # parameters fitted to those two (V01 to V06). Lift-off of the same model (V07), speed at 35 m (V08).
@@ -64,19 +64,19 @@ def test_the_step_between_two_frames_does_not_show():
 
 
 def test_wind_slope_heat_and_height_act_as_they_must():
-    still = take_off_case(mass=100e3)["distance_35m_m"]
-    assert take_off_case(mass=100e3, headwind=5.0)["distance_35m_m"] < 0.92 * still
-    assert take_off_case(mass=100e3, headwind=-5.0)["distance_35m_m"] > 1.08 * still
-    assert take_off_case(mass=100e3, slope=0.02)["distance_35m_m"] > still
-    assert take_off_case(mass=100e3, slope=-0.02)["distance_35m_m"] < still
-    assert take_off_case(mass=100e3, isa_deviation=30.0)["distance_35m_m"] > still
-    assert take_off_case(mass=100e3, elevation=1500.0)["distance_35m_m"] > still
-    assert take_off_case(mass=100e3, start="rolling")["distance_35m_m"] > still
-    assert take_off_case(mass=100e3, heading=2.0)["distance_35m_m"] == pytest.approx(still, rel=1e-3)
+    still = case_row(TakeOff(mass=100e3))["distance_35m_m"]
+    assert case_row(TakeOff(mass=100e3, headwind=5.0))["distance_35m_m"] < 0.92 * still
+    assert case_row(TakeOff(mass=100e3, headwind=-5.0))["distance_35m_m"] > 1.08 * still
+    assert case_row(TakeOff(mass=100e3, slope=0.02))["distance_35m_m"] > still
+    assert case_row(TakeOff(mass=100e3, slope=-0.02))["distance_35m_m"] < still
+    assert case_row(TakeOff(mass=100e3, isa_deviation=30.0))["distance_35m_m"] > still
+    assert case_row(TakeOff(mass=100e3, elevation=1500.0))["distance_35m_m"] > still
+    assert case_row(TakeOff(mass=100e3, start="rolling"))["distance_35m_m"] > still
+    assert case_row(TakeOff(mass=100e3, heading=2.0))["distance_35m_m"] == pytest.approx(still, rel=1e-3)
 
 
 def test_the_same_take_off_gives_the_same_row():
-    assert take_off_case(mass=97e3, crosswind=7.0) == take_off_case(mass=97e3, crosswind=7.0)
+    assert case_row(TakeOff(mass=97e3, crosswind=7.0)) == case_row(TakeOff(mass=97e3, crosswind=7.0))
 
 
 @pytest.mark.parametrize(
@@ -161,4 +161,4 @@ def test_a_take_off_is_a_case_of_a_study():
     assert result.keys() == kind.outputs()
     assert result["mass_kg"] == 110e3
     assert result["elevation_m"] == pytest.approx(1470 * 0.3048, abs=1.0)
-    assert result["distance_35m_m"] > take_off_case(mass=110e3)["distance_35m_m"]  # thinner air at Munich
+    assert result["distance_35m_m"] > case_row(TakeOff(mass=110e3))["distance_35m_m"]  # thinner air at Munich

@@ -14,7 +14,6 @@ from harness.world import earth
 COLOGNE = (50.8659 * DEG, 7.1427 * DEG)
 MUNICH = (48.3538 * DEG, 11.7861 * DEG)
 MICROMETRE = 1e-6
-MICRORADIAN = 1e-6
 
 
 def test_cologne_to_munich_is_what_geographiclib_says():

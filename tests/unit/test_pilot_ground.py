@@ -12,7 +12,6 @@ from harness.state import FIELDS, State
 from harness.world.local import LocalFrame, filleted
 
 ORIGIN = (radians(50.0), radians(7.0))
-METRE = 1.0 / 6_371_000.0  # rad, near enough
 
 
 def at(north: float, east: float, heading: float, speed: float) -> State:
