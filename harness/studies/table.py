@@ -50,7 +50,7 @@ def read(path: Path) -> "pa.Table":
     from pyarrow import parquet
 
     try:
-        return parquet.read_table(path)
+        return parquet.ParquetFile(path).read()  # read_table loads a library for folders of files
     except (OSError, pa.ArrowException) as error:
         what = f"is damaged or cut short: {' '.join(str(error).split())[:200]}"
         remedy = "`harness study STUDY --resume` writes it anew from the journal beside it"
