@@ -116,6 +116,7 @@ class GroundSteering:
         self._line_time = gains["ground-cross-track-time-constant"]
         self._trim_gain = gains["ground-yaw-trim-gain"]
         self._rudder_gain = gains["ground-rudder-gain"]
+        self._align_gain = gains["align-rudder-gain"]
         self._trim = 0.0
 
     def reset(self) -> None:
@@ -157,7 +158,7 @@ class GroundSteering:
     def align(self, state: State, course: float) -> float:
         """Return the pedals that turn the nose to the runway's direction in the flare."""
         error = wrap(course - state.heading)
-        return clamp(self._rudder_gain * 2.0 * (error / self._heading_time - state.yaw_rate), -1.0, 1.0)
+        return clamp(self._align_gain * (error / self._heading_time - state.yaw_rate), -1.0, 1.0)
 
 
 def _full_scale(gains: Mapping[str, float]) -> list[tuple[float, float]]:

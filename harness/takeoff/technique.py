@@ -18,9 +18,6 @@ PITCH = "12.5 deg"
 PITCH_RATE = (
     3.0 * DEG
 )  # rad/s, as transport aircraft are rotated; the manual's gain serves every change of attitude
-RUDDER_GAIN = 20.0
-"""s/rad, for the manual's ground-rudder-gain when an engine fails: full pedal within a second. With the manual's own,
-made for crosswinds, it takes two."""
 FREE = 1e4
 SETTLE = (
     "3 s"  # on the brakes until the engines give their take-off thrust, from harness.plant.preset.lined_up
@@ -72,8 +69,6 @@ def fitted(manual: FlightManual, case: TakeOff, event: Happening) -> FlightManua
     phases["T/O.transition"] = _transition(phases["T/O.transition"], event)
     phases["RTO"] = _rejected(phases["RTO"], event)
     gains = {**manual.gains, "pitch-rate": PITCH_RATE}
-    if event.vef is not None:
-        gains["ground-rudder-gain"] = RUDDER_GAIN
     if not event.steering:  # the pilot believes that a small command turns the wheel far
         gains |= {name: angle * FREE for name, angle in gains.items() if name.startswith("steering-angle")}
     return replace(manual, phases=phases, gains=gains)
