@@ -88,8 +88,10 @@ def show_list(chosen: argparse.Namespace) -> int:
     if chosen.json:
         print_json(found)
         return 0
+    width = max((len(name) for entries in found.values() for name in entries), default=0)
     for kind, entries in found.items():
         print(f"{kind}:")
         for name, entry in entries.items():
-            print(f"  {name:<20} {entry['description']}")
+            first, end, _ = entry["description"].partition(". ")
+            print(f"  {name:<{width}}  {first}{end.rstrip()}")
     return 0

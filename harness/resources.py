@@ -107,4 +107,4 @@ def fingerprint(name: str) -> str:
 
 
 def _named(folder: Path) -> dict[str, Path]:
-    return {path.stem: path for path in sorted(folder.glob("*.xml"))}
+    return {path.stem: path for path in sorted(folder.glob("*.xml"), key=lambda path: path.stem)}

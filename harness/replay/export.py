@@ -73,8 +73,8 @@ def _description(run: Run, inputs: Inputs) -> str:
     """What the script is, and how the stock program replays it."""
     facts = run.summary
     return (
-        f"{facts['mission']} as flown by harness {facts['harness_version']}, aircraft {facts['aircraft']} with SHA-256 "
-        f"{facts['aircraft_sha256']}. Replay: jsbsim --root=ROOT --script=THIS --simulation-rate={inputs.rate}"
+        f"{facts['mission']} as flown by harness {facts['harness_version']}. "
+        f"Aircraft {facts['aircraft']}, SHA-256 {facts['aircraft_sha256']}. Replay: jsbsim --root=ROOT --script=THIS --simulation-rate={inputs.rate}"
     )
 
 
