@@ -74,7 +74,8 @@ def _description(run: Run, inputs: Inputs) -> str:
     facts = run.summary
     return (
         f"{facts['mission']} as flown by harness {facts['harness_version']}. "
-        f"Aircraft {facts['aircraft']}, SHA-256 {facts['aircraft_sha256']}. Replay: jsbsim --root=ROOT --script=THIS --simulation-rate={inputs.rate}"
+        f"Aircraft {facts['aircraft']}, SHA-256 {facts['aircraft_sha256']}. "
+        f"Replay: jsbsim --root=ROOT --script=THIS --simulation-rate={inputs.rate}"
     )
 
 
