@@ -173,5 +173,11 @@ def did_you_mean(word: str, known: Iterable[str], form: str = "{}") -> str:
     return f"known: {shown}" + (", ..." if len(choices) > 12 else "")
 
 
+def shorten(text: object, most: int = 60) -> str:
+    """The text for a message: on one line and not too long."""
+    plain = " ".join(str(text).replace("\x00", "").split())
+    return plain if len(plain) <= most else plain[: most - 3] + "..."
+
+
 def _lines(first: str, *others: str) -> str:
     return "\n    ".join(line for line in (first, *others) if line)

@@ -14,8 +14,9 @@ from typing import Any, Protocol, TypeVar, cast
 
 from lxml import etree
 
-from harness.errors import InputError, InputErrors, did_you_mean
+from harness.errors import InputError, InputErrors, did_you_mean, shorten
 from harness.units import UnitError, parse
+from harness.xml_findings import retold
 
 Element = etree._Element  # noqa: SLF001 -- lxml has no public name for it
 Value = TypeVar("Value")
@@ -168,7 +169,7 @@ class Source:
     def _retell(self, finding: Finding) -> None:
         found = self.root.getroottree().xpath(finding.path) if finding.path else []
         element = cast(Element, found[0]) if isinstance(found, list) and found else self.root
-        told = _retold(finding.message)
+        told = retold(finding.message)
         if told is not None:
             what, remedy, attribute = told
             self.fault(what, element, attribute, remedy)
@@ -177,12 +178,6 @@ class Source:
 def children(parent: Element, tag: str = "*") -> Iterable[Element]:
     """Child elements, without comments."""
     return parent.iterchildren(tag)
-
-
-def shorten(text: object, most: int = 60) -> str:
-    """The text for a message: on one line and not too long."""
-    plain = " ".join(str(text).replace("\x00", "").split())
-    return plain if len(plain) <= most else plain[: most - 3] + "..."
 
 
 def read_bytes(path: Path, largest: int = LARGEST_FILE) -> bytes:
@@ -286,46 +281,3 @@ def _schema(name: str) -> tuple[etree.XMLSchema, Words]:
     return etree.XMLSchema(document), Words(
         tag for part in roots for tag in part.iterchildren(f"{_XS}element")
     )
-
-
-_MISSING_ATTRIBUTE = re.compile(r"Element '([^']*)': The attribute '([^']*)' is required but missing")
-_MISSING_CHILD = re.compile(r"Element '([^']*)': Missing child element\(s\)\. Expected is \( (.*) \)")
-_ENUMERATION = re.compile(
-    r"Element '[^']*', attribute '([^']*)': \[facet 'enumeration'\] "
-    r"The value '(.*)' is not an element of the set \{(.*)\}",
-    re.DOTALL,
-)
-_FACET = re.compile(r"Element '[^']*', attribute '([^']*)': \[facet '(minLength|maxLength|pattern)'\]")
-_FACETS = {
-    "minLength": ("is empty", ""),
-    "maxLength": ("is too long", ""),
-    "pattern": (
-        "has characters that do not belong there",
-        "letters and digits, joined by . _ -, on one line",
-    ),
-}
-_TEXT = re.compile(r"Element '([^']*)': (?:Character content|The element content|Element content)")
-_ECHO = re.compile(r"Element '[^']*', attribute '[^']*': '.*' is not a valid value of the", re.DOTALL)
-
-
-def _retold(message: str) -> tuple[str, str, str] | None:
-    """(what is wrong, what would be right, the attribute) of a finding; None if it repeats another."""
-    if _ECHO.match(message):
-        return None
-    if found := _MISSING_ATTRIBUTE.match(message):
-        return f'<{found[1]}> lacks its "{found[2]}"', f'add {found[2]}="..."', ""
-    if found := _MISSING_CHILD.match(message):
-        return f"<{found[1]}> is empty", f"add at least one <{found[2]} .../>", ""
-    if found := _ENUMERATION.match(message):
-        allowed = re.findall(r"'([^']*)'", found[3])
-        return f'{found[1]}="{shorten(found[2])}" is not known', did_you_mean(found[2], allowed), found[1]
-    if found := _FACET.match(message):
-        what, remedy = _FACETS[found[2]]
-        return f"{found[1]} {what}", remedy, found[1]
-    if found := _TEXT.match(message):
-        return (
-            f"<{found[1]}> has text inside, where none belongs",
-            "values are attributes; delete the text",
-            "",
-        )
-    return shorten(message, 200), "", ""

@@ -12,9 +12,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import cast
 
-from harness.errors import InputError, InputErrors, did_you_mean
+from harness.errors import InputError, InputErrors, did_you_mean, shorten
 from harness.lint.words import COMPONENTS, KNOWN, OPERATIONS, OWN_PROPERTIES, SECTIONS
-from harness.xml_source import Element, children, read_document, shorten
+from harness.xml_source import Element, children, read_document
 
 NAME = re.compile(r"-?[A-Za-z_][\w.+-]*(?:\[\d+\])?(?:/[\w.+-]+(?:\[\d+\])?)+")
 INDEX = re.compile(r"\[\d+\]")

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from lxml import etree
 
-from harness.errors import InputError, did_you_mean
-from harness.xml_source import Element, Source, children, shorten
+from harness.errors import InputError, did_you_mean, shorten
+from harness.xml_source import Element, Source, children
 
 _STEP = re.compile(r"([^/\[\]]+)(?:\[((?:[^\[\]]|\[\d+\])*)\])?(/|$)")  # a property's name may have an index
 _OPTIONAL = {"environment", "speed", "gain", "property", "configuration", "description"}

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import cast
 
 from harness import resources
-from harness.errors import InputError, did_you_mean
+from harness.errors import InputError, did_you_mean, shorten
 from harness.mission.overrides import Override
 from harness.studies.kinds import KINDS
 from harness.studies.model import (
@@ -24,7 +24,7 @@ from harness.studies.model import (
     column_name,
 )
 from harness.units import UnitError, parse
-from harness.xml_source import Element, Source, children, shorten
+from harness.xml_source import Element, Source, children
 
 SCHEMA = "study.xsd"
 WALL_LIMIT = 600.0  # s of the clock on the wall for one case, where the study says nothing
