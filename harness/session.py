@@ -120,7 +120,7 @@ class Session:
 
             departure = self.mission.departure
             runway = load().runway(departure.airport, departure.runway)
-            run.summary["rejected_take_off"] = rejected_take_off(run, runway)
+            run.summary["rejected_take_off"] = rejected_take_off(run, runway)._asdict()
         return run, stopped
 
     def _identity(self, rate: int) -> dict[str, object]:

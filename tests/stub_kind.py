@@ -42,4 +42,4 @@ def probe(subject, overrides):
 
 
 def outputs():
-    return frozenset({"double", "word", "noise", "nested"})
+    return frozenset({"double", "word", "noise", "nested.list[a.b].x"})

@@ -3,7 +3,7 @@
 import hashlib
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -95,13 +95,24 @@ class Cases:
                 faults |= {str(fault): fault for fault in every}
         known = kind.outputs()
         for output in study.outputs:
-            name = output.path.partition(".")[0].partition("[")[0]
-            if name not in known:
-                what = f'a {study.kind} has no output "{name}"'
-                fault = InputError(what, file=study.source_path, remedy=did_you_mean(name, known))
+            if output.path not in known:
+                fault = InputError(
+                    f'a {study.kind} has no output "{output.path}"',
+                    file=study.source_path,
+                    line=output.line,
+                    remedy=_nearest(output.path, known),
+                )
                 faults[str(fault)] = fault
         if faults:
             raise InputErrors(faults.values())
+
+
+def _nearest(path: str, known: Collection[str]) -> str:
+    """A remedy for an output that is not known; one that is there in part leads to what is below or above it."""
+    related = [
+        each for each in known if each.startswith((f"{path}.", f"{path}[")) or each.endswith(f".{path}")
+    ]
+    return did_you_mean(path, related or known)
 
 
 def identity(study: Study, aircraft: str) -> Identity:

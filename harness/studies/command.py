@@ -47,6 +47,7 @@ def run(chosen: argparse.Namespace) -> int:
                 cluster=chosen.cluster,
                 resume=chosen.resume,
                 confirm=None if chosen.yes else _confirm,
+                tell=say,
                 progress=progress,
             )
     except KeyboardInterrupt:

@@ -42,6 +42,7 @@ def conduct(
     cluster: str | None = None,
     resume: bool = False,
     confirm: Callable[[int], None] | None = None,
+    tell: Callable[[str], None] | None = None,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
     """Run a study into its results folder; returns its summary, which is kept there as well.
@@ -58,6 +59,7 @@ def conduct(
         cluster=cluster,
         resume=resume,
         confirm=confirm,
+        tell=tell,
         progress=progress,
     )
     kept = folder / SUMMARY

@@ -2,6 +2,7 @@
 
 import os
 import queue
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -19,6 +20,8 @@ MANY = 10_000  # cases: more are asked about before they are begun
 AHEAD = 2  # cases handed out for each worker, so that none waits for the journal
 TICK = 1.0  # s between two looks at what else may have happened
 STORED = ("definition", "aircraft", "aircraft_files", "code")
+CHANGEABLE = {"code": "the harness or one of its libraries", "aircraft_files": "the aircraft's files"}
+"""What results are flown anew for when it changes."""
 
 Progress = Callable[[int, int, int], None]
 """Called with the numbers of cases done, of all, and of those that did not succeed."""
@@ -89,12 +92,13 @@ def run_study(
     cluster: str | None = None,
     resume: bool = False,
     confirm: Callable[[int], None] | None = None,
+    tell: Callable[[str], None] | None = None,
     progress: Progress | None = None,
 ) -> Outcome:
     """Run a study, or with `resume` what is left of it, into its results folder.
 
-    `confirm` is called with the number of cases when they are many, and raises to stop. Raises InputError,
-    OutputError; whatever happens, results that were journalled stay.
+    `confirm` is called with the number of cases when they are many, and raises to stop; `tell` with a line that says
+    what is kept of an earlier run. Raises InputError, OutputError; whatever happens, results that were journalled stay.
     """
     if workers is not None and workers < 1:
         raise InputError(
@@ -109,6 +113,8 @@ def run_study(
             return finished
         cases = cases or _ready(study, confirm if journal.empty else None)
         facts = dict(zip(STORED, identity(study, cases.aircraft), strict=True))
+        if tell and not journal.empty:
+            tell(_kept(cases, journal, facts))
         journal.note({"study": study.name, "session": str(journal.session), "table": "", **facts})
         return _Run(study, cases, journal, progress).finish(folder, workers, cluster)
 
@@ -237,6 +243,19 @@ def _own(journal: Journal, study: Study, folder: Path, *, resume: bool) -> None:
             file=folder,
             remedy="undo the change, or choose another folder: --out DIR",
         )
+
+
+def _kept(cases: Cases, journal: Journal, facts: Mapping[str, str]) -> str:
+    """How many rows of an earlier run are kept, how many cases are flown, and why."""
+    statuses = Counter(journal.status(case.key) for case in cases)
+    kept, new = statuses.pop("ok", 0), statuses.pop(None, 0)
+    changed = " and ".join(what for name, what in CHANGEABLE.items() if journal.meta[name] != facts[name])
+    reasons = {
+        f"not flown since {changed} changed" if changed else "not flown yet": new,
+        "that did not succeed before": statuses.total(),
+    }
+    told = ", ".join(f"{number:,} {reason}" for reason, number in reasons.items() if number)
+    return f"{cases.study.name}: {kept:,} of {cases.count:,} rows are kept; to fly: {told or 'nothing'}"
 
 
 def _finished(journal: Journal, study: Study, folder: Path) -> Outcome | None:

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
+from harness.analysis.rejected import RejectedTakeOff
 from harness.log import FlightLog, Inputs, conclude
 from harness.manual import FlightManual, read_manual
 from harness.mission.check import check
@@ -11,10 +12,14 @@ from harness.mission.overrides import Override
 from harness.mission.reader import read_mission
 from harness.session import Session
 from harness.studies.model import Subject
+from harness.vocabulary import PHASES
 
 read_manual_once = cache(read_manual)  # a thousand cases, one aircraft
 MACHINE = frozenset({"wall_time_s", "real_time_factor", "versions"})
 """What a summary says of the computer rather than of the flight."""
+NESTED = frozenset({"rejected_take_off", "phases"})
+IN_PHASE = ("start", "end", "fuel", "distance")
+"""What a summary has of each phase."""
 
 
 def run_case(subject: Subject, overrides: Sequence[Override], seed: int) -> Mapping[str, Any]:  # noqa: ARG001
@@ -41,7 +46,7 @@ def probe(subject: Subject, overrides: Sequence[Override]) -> None:
 
 
 def outputs() -> frozenset[str]:
-    """The names in a summary."""
+    """The paths of what a summary may hold: its numbers and words, those of a rejected take-off and of each phase."""
     summary = conclude(
         FlightLog(),
         Inputs(),
@@ -53,4 +58,6 @@ def outputs() -> frozenset[str]:
         outcome="stopped",
         reason="nothing was flown",
     ).summary
-    return frozenset(summary.keys() - MACHINE)
+    rejected = {f"rejected_take_off.{name}" for name in RejectedTakeOff._fields}
+    phases = {f"phases[{phase}].{name}" for phase in PHASES for name in IN_PHASE}
+    return frozenset(summary.keys() - MACHINE - NESTED | rejected | phases)

@@ -124,6 +124,12 @@ class Journal:
             ).fetchone()
         return row is not None and bool(row[0])
 
+    def status(self, key: str) -> str | None:
+        """The status of a case; None when it has no result."""
+        with _disk(self.path):
+            row = self._database.execute("SELECT status FROM results WHERE key = ?", (key,)).fetchone()
+        return None if row is None else str(row[0])
+
     def result(self, key: str) -> Result:
         """The result of a case. Raises KeyError when it has none."""
         query = "SELECT status, reason, outputs, detail, wall_s, cpu_s FROM results WHERE key = ?"

@@ -5,7 +5,8 @@ A kind's module has
 * `run_case(subject, overrides, seed)`: runs one case and returns what came out, a dictionary of numbers and words
   (nested ones are reached by dotted paths). Raises HarnessError when it could not be completed;
 * `probe(subject, overrides)`: raises InputError for an override that leads nowhere or has the wrong unit;
-* `outputs()`: the names `run_case` returns at its top, but those that differ from one computer to the next.
+* `outputs()`: the paths of the numbers and words that `run_case` may return, but those that differ from one computer to
+  the next.
 """
 
 from collections.abc import Mapping, Sequence
@@ -29,7 +30,7 @@ class Kind(Protocol):
         """Look at what the overrides lead to."""
 
     def outputs(self) -> frozenset[str]:
-        """The names of what comes out."""
+        """The paths of what comes out."""
 
 
 def load_kind(module: str) -> Kind:

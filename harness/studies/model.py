@@ -117,6 +117,7 @@ class Output(NamedTuple):
 
     path: str
     column: str
+    line: int | None
 
 
 class Subject(NamedTuple):

@@ -190,7 +190,10 @@ class _Reader:
         elements = list(children(root, "output"))
         if not elements:
             self.source.fault("the study keeps nothing", root, remedy='add <output name="fuel_burned_kg"/>')
-        outputs = [Output(e.get("name", ""), e.get("column", e.get("name", ""))) for e in elements]
+        outputs = [
+            Output(e.get("name", ""), e.get("column", e.get("name", "")), self.source.place(e)[1])
+            for e in elements
+        ]
         seen = set(TAKEN)
         for element, output in zip(elements, outputs, strict=True):
             if output.column in seen:

@@ -89,24 +89,25 @@ def _clear_up() -> None:
 def pick(found: Mapping[str, Any], path: str) -> Any:  # noqa: ANN401  whatever is there
     """What a dotted path leads to; `phases[ENR.CLB].fuel` picks from a list by name, the first of that name.
 
-    Raises LookupError.
+    None for what the flight did not come to: what is None itself, or not in its list. Raises LookupError.
     """
     here: Any = found
     for name, key, _ in _STEP.findall(path):
+        if here is None:
+            return None
         if not isinstance(here, Mapping) or name not in here:
             raise LookupError(f'there is no "{name}" for the output "{path}"')
         here = here[name]
         if key:
             here = next((entry for entry in here if entry.get("name") == key), None)
-            if here is None:
-                raise LookupError(f'there is no "{key}" for the output "{path}"')
     return here
 
 
-def _plain(value: object) -> float | str | None:
+def _plain(value: float | str | None) -> float | str | None:
+    """A value as the table has it: nothing for a number that is not finite."""
     if isinstance(value, int | float):
         return float(value) if math.isfinite(value) else None
-    return value if value is None or isinstance(value, str) else json.dumps(value)
+    return value
 
 
 def _listen(requests: "queue.SimpleQueue[str]") -> None:

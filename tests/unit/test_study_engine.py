@@ -245,16 +245,29 @@ def test_a_full_disk_loses_nothing(make: Make, tmp_path: Path) -> None:
     assert content(tmp_path / "out") == content(tmp_path / "undisturbed")
 
 
-def test_other_code_flies_everything_anew(
+def test_what_is_kept_and_what_is_flown_again_is_told(
     make: Make, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    study = make(6000, 7000)
-    run(study, tmp_path / "out")
+    study, out, told = make(6000, 7000, FAIL), tmp_path / "out", []
+    run(study, out)
+    with closing(sqlite3.connect(out / "journal.sqlite")) as database, database:
+        database.execute("DELETE FROM results WHERE outputs LIKE '%w7000%'")
+    assert run(study, out, resume=True, tell=told.append)["cases_run"] == 2
+    counts = "1 not flown yet, 1 that did not succeed before"
+    assert told.pop() == f"s: 1 of 3 rows are kept; to fly: {counts}"
+    monkeypatch.setattr("harness.resources.fingerprint", lambda aircraft: "another aircraft")
+    assert run(study, out, resume=True, tell=told.append)["cases_run"] == 3
+    why = "3 not flown since the aircraft's files changed"
+    assert told.pop() == f"s: 0 of 3 rows are kept; to fly: {why}"
+    monkeypatch.undo()  # the rows of the aircraft as it was are there still
+    assert run(study, out, resume=True, tell=told.append)["cases_run"] == 1
+    assert told.pop() == "s: 2 of 3 rows are kept; to fly: 1 that did not succeed before"
     monkeypatch.setattr("harness.studies.cases.code_fingerprint", lambda: "other")
-    with pytest.raises(
-        guard.WorkerError, match="another version"
-    ):  # the workers really have the code that is there
-        run(study, tmp_path / "out", resume=True)
+    # the workers really have the code that is there
+    with pytest.raises(guard.WorkerError, match="another version"):
+        run(study, out, resume=True, tell=told.append)
+    why = "3 not flown since the harness or one of its libraries changed"
+    assert told.pop() == f"s: 0 of 3 rows are kept; to fly: {why}"
 
 
 def test_a_study_is_a_table_in_python(make: Make, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -305,6 +318,8 @@ def test_a_dotted_path_finds_its_way() -> None:
     found = {"a": {"b": 1.0}, "phases": [{"name": "T/O.run", "fuel": 2.0}, {"name": "T/O.run", "fuel": 3.0}]}
     assert pick(found, "a.b") == 1.0
     assert pick(found, "phases[T/O.run].fuel") == 2.0
-    for path in ("a.c", "phases[DEP].fuel", "phases[T/O.run].fule"):
+    assert pick({"rejected_take_off": None}, "rejected_take_off.stop_s") is None
+    assert pick(found, "phases[DEP].fuel") is None
+    for path in ("a.c", "phases[T/O.run].fule"):
         with pytest.raises(LookupError, match="there is no"):
             pick(found, path)

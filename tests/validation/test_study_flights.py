@@ -1,10 +1,13 @@
 """Studies of real flights: the engine adds nothing to them and takes nothing away."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import harness
+from harness import resources
+from harness.studies import flight
 
 pytestmark = pytest.mark.slow
 STUDY = """<study name="two-hops" of="hop">
@@ -31,3 +34,39 @@ def test_a_case_of_a_study_is_the_flight_that_fly_flies(tmp_path: Path) -> None:
     assert rows[1]["fuel_burned_kg"] == summary["fuel_burned_kg"]
     assert rows[1]["flight_time_s"] == summary["flight_time_s"]
     assert rows[1]["phases[T/O.run].distance"] == run["distance"]
+
+
+REJECTED = """<study name="rejected" of="rejecting">
+  <factor path="loading/take-off-mass" name="mass"><values list="95 t, 110 t"/></factor>
+  <output name="rejected_take_off.accelerate_stop_distance_m" column="accelerate_stop_m"/>
+  <output name="phases[RTO].distance" column="rto_km"/><output name="phases[DEP].fuel" column="departure"/>
+  <output name="outcome"/>
+</study>"""
+REJECT = """<phase name="T/O.run"><checklist to="RTO">
+  <item name="engine failure" remove="yes"/><item name="reject" quantity="cas" at-least="100 kt"/>
+</checklist></phase></mission>"""
+
+
+def test_what_is_deep_in_a_summary_can_be_kept_and_is_null_where_the_flight_did_not_come_to_it(
+    tmp_path: Path,
+) -> None:
+    circuit = resources.missions()["circuit"].read_text("utf-8")
+    rejecting = circuit.replace('name="circuit"', 'name="rejecting" expects="rejected take-off"')
+    (tmp_path / "rejecting.xml").write_text(rejecting.replace("</mission>", REJECT), "utf-8")
+    (tmp_path / "rejected.xml").write_text(REJECTED, "utf-8")
+    rows = harness.study(tmp_path / "rejected.xml").to_pylist()
+    assert [(row["status"], row["outcome"]) for row in rows] == [("ok", "rejected take-off")] * 2
+    assert 900 < rows[0]["accelerate_stop_m"] < rows[1]["accelerate_stop_m"] < 2000
+    assert all(0 < row["rto_km"] * 1000 < row["accelerate_stop_m"] for row in rows)
+    assert [row["departure"] for row in rows] == [None, None]
+    summary = harness.fly(tmp_path / "rejecting.xml").summary
+    assert _leaves(summary) - flight.MACHINE <= flight.outputs()
+    not_come_to = flight.outputs() - _leaves(summary)
+    assert all(path.startswith("phases[") and "RTO" not in path for path in not_come_to)
+
+
+def _leaves(summary: dict[str, Any]) -> set[str]:
+    """The paths of the numbers and words of a summary."""
+    found = summary.keys() - flight.NESTED
+    found |= {f"rejected_take_off.{name}" for name in summary["rejected_take_off"]}
+    return found | {f"phases[{p['name']}].{name}" for p in summary["phases"] for name in p.keys() - {"name"}}
