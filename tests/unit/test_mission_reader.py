@@ -3,6 +3,7 @@
 # ruff: noqa: E501  a table of cases reads best one case a line
 
 import os
+import shutil
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -23,10 +24,10 @@ MANUAL = Path(__file__).parents[1] / "data" / "flight-manual.xml"
 
 
 @pytest.fixture(autouse=True)
-def a_fleet_of_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def a_fleet_of_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, repository: Path) -> None:
     """The missions are checked against the manual of the tests, so that tuning an aircraft breaks no test here."""
     folder = tmp_path / "root" / "aircraft" / "gta"
-    folder.mkdir(parents=True)
+    shutil.copytree(repository / "aircraft" / "gta", folder)
     (folder / "flight-manual.xml").write_bytes(MANUAL.read_bytes())
     monkeypatch.setattr(resources, "root", lambda: tmp_path / "root")
 
