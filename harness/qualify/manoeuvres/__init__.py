@@ -14,6 +14,7 @@ from harness.qualify.manoeuvres import (
     payload,
     payload_range,
     stall,
+    takeoff,
 )
 from harness.qualify.outcome import Manoeuvre
 
@@ -29,13 +30,13 @@ MANOEUVRES: Mapping[str, Manoeuvre] = MappingProxyType(
         "power-on stall": stall.power_on_stall,
         "minimum control speed in the air": stall.minimum_control_speed_air,
         "thrust at speed": engine.thrust_at_speed,
-        "take-off": ground.take_off,
+        "take-off": takeoff.take_off,
         "brake hold": ground.brake_hold,
         "coast-down": ground.coast_down,
         "wheel spin-up": ground.spin_up,
         "stopping by brakes": ground.stopping,
         "turn on the ground": ground.turn,
-        "minimum control speed on the ground": ground.minimum_control_speed_ground,
+        "minimum control speed on the ground": takeoff.minimum_control_speed_ground,
         "landing": landing.landing,
         "airdrop": payload.airdrop,
         "longitudinal modes": handling.longitudinal,
