@@ -15,7 +15,7 @@ from harness.qualify.manoeuvres.ground import Driver, standing
 from harness.qualify.outcome import Aircraft, Outcome, history
 from harness.units import FT, KT
 
-ROTATION = radians(12.0)  # pitch attitude held to the screen, at 3 deg/s: the technique of the take-off study
+ROTATION = radians(12.0)  # pitch attitude held to the screen, at 3 deg/s; fitted, see docs/assumptions.md
 ASIDE = 30 * FT  # CS-25.149(e)
 DEGREE = radians(1.0)
 
