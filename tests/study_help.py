@@ -1,11 +1,13 @@
-"""Studies of the stub kind: written, run, begun in processes of their own and looked at. For tests."""
+"""Studies written, run, begun in processes of their own or on a cluster, and looked at. For tests."""
 
 import os
+import socket
 import sqlite3
 import subprocess
 import sys
 import time
-from contextlib import closing
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 from stub_kind import DELAY, MARKS
@@ -100,3 +102,51 @@ def journalled(folder: Path) -> int:
     """How many results are in the journal of a study that runs no more."""
     with closing(sqlite3.connect(folder / "journal.sqlite")) as database:
         return int(database.execute("SELECT COUNT(*) FROM results").fetchone()[0])
+
+
+class Cluster:
+    """A scheduler and workers, each a process of its own."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        with closing(socket.socket()) as probe:
+            probe.bind(("127.0.0.1", 0))
+            self.port = probe.getsockname()[1]
+        self.address = f"tcp://127.0.0.1:{self.port}"
+        self.scheduler = self._begin(
+            "scheduler", "--host", "127.0.0.1", "--port", str(self.port), "--no-dashboard"
+        )
+        self.workers = [self.add_worker(), self.add_worker()]
+
+    def add_worker(self) -> "subprocess.Popen[bytes]":
+        """Another worker of one thread."""
+        return self._begin("worker", self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
+
+    def _begin(self, what: str, *arguments: str) -> "subprocess.Popen[bytes]":
+        return subprocess.Popen(
+            [sys.executable, "-m", f"distributed.cli.dask_{what}", *arguments],
+            cwd=self.folder,
+            env={
+                **os.environ,
+                "PYTHONPATH": os.pathsep.join((str(TESTS.parent), str(TESTS))),
+                MARKS: str(self.folder / "out.marks"),
+                DELAY: "0.05",
+            },
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+
+    def end(self) -> None:
+        """End all of it."""
+        for process in (*self.workers, self.scheduler):
+            process.kill()
+            process.wait()
+
+
+@contextmanager
+def cluster(folder: Path) -> Iterator[Cluster]:
+    found = Cluster(folder)
+    try:
+        yield found
+    finally:
+        found.end()

@@ -1,68 +1,16 @@
 """Studies on a Dask cluster: a real scheduler and real worker processes of this computer."""
 
-import os
 import signal
-import socket
-import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
 from pathlib import Path
 
 import pytest
-from stub_kind import CRASH, DELAY, FAIL, HANG, MARKS
-from study_help import TESTS, await_marks, begin, content, finish, gone, rows, run, write
+from stub_kind import CRASH, FAIL, HANG
+from study_help import Cluster, await_marks, begin, cluster, content, finish, gone, rows, run, write
 
 from harness.errors import InputError
-
-
-class Cluster:
-    """A scheduler and workers, each a process of its own."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        with closing(socket.socket()) as probe:
-            probe.bind(("127.0.0.1", 0))
-            self.port = probe.getsockname()[1]
-        self.address = f"tcp://127.0.0.1:{self.port}"
-        self.scheduler = self._begin(
-            "scheduler", "--host", "127.0.0.1", "--port", str(self.port), "--no-dashboard"
-        )
-        self.workers = [self.add_worker(), self.add_worker()]
-
-    def add_worker(self) -> "subprocess.Popen[bytes]":
-        """Another worker of one thread."""
-        return self._begin("worker", self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
-
-    def _begin(self, what: str, *arguments: str) -> "subprocess.Popen[bytes]":
-        return subprocess.Popen(
-            [sys.executable, "-m", f"distributed.cli.dask_{what}", *arguments],
-            cwd=self.folder,
-            env={
-                **os.environ,
-                "PYTHONPATH": os.pathsep.join((str(TESTS.parent), str(TESTS))),
-                MARKS: str(self.folder / "out.marks"),
-                DELAY: "0.05",
-            },
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-
-    def end(self) -> None:
-        """End all of it."""
-        for process in (*self.workers, self.scheduler):
-            process.kill()
-            process.wait()
-
-
-@contextmanager
-def cluster(folder: Path) -> Iterator[Cluster]:
-    found = Cluster(folder)
-    try:
-        yield found
-    finally:
-        found.end()
 
 
 @pytest.fixture
