@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from harness.design import blade_element
-from harness.design.blade_element import ADVANCE, ANGLES, BLADE_FILE, DIAMETER, PROPELLER_FILE, Array
+from harness.design.blade import Array, read_blade
+from harness.design.blade_element import ADVANCE, ANGLES, DIAMETER, PROPELLER_FILE
 
 SEA_LEVEL_DENSITY = 1.225
 TAKEOFF_POWER = 7.971e6
@@ -48,7 +49,7 @@ def governed_thrust(
 
 
 def test_the_committed_file_is_what_the_generator_writes() -> None:
-    text = blade_element.propeller(blade_element.read_blade(BLADE_FILE))
+    text = blade_element.propeller(read_blade())
     committed = PROPELLER_FILE.read_text(encoding="utf-8")
     assert text.partition("<table")[0] == committed.partition("<table")[0]
     for new, old in zip(
@@ -97,7 +98,7 @@ Worobel and Mayo, NASA CR-2066 (1972), base tables as published in NASA Aviary."
 @pytest.mark.parametrize("advance", HAMILTON_STANDARD)
 def test_the_blade_elements_agree_with_the_hamilton_standard_method(advance: float) -> None:
     """Thrust at given power, light to heavy loading: an independent method, and nothing was fitted to these points."""
-    blade = blade_element.read_blade()
+    blade = read_blade()
     blade = blade._replace(chord=blade.chord * 150.0 / 141.0, design_lift=blade.design_lift * 0.5 / 0.41)
     tolerance = 0.08 if advance == 0.0 else 0.06
     for power, thrust in HAMILTON_STANDARD[advance]:
@@ -120,7 +121,7 @@ def test_thin_air_takes_static_thrust_between_stall_and_momentum(
 
 
 def test_compressibility_costs_thrust_only_in_fast_cruise() -> None:
-    mach, factor = blade_element.compressibility(blade_element.read_blade())
+    mach, factor = blade_element.compressibility(read_blade())
     assert np.all(np.diff(mach) > 0.0)
     assert np.all(np.diff(factor) <= 0.0)
     assert np.interp(0.95, mach, factor) == pytest.approx(1.0, abs=1e-3)
@@ -163,7 +164,7 @@ def test_a_feathered_propeller_does_not_windmill(tables: dict[str, Array]) -> No
 def test_the_blade_is_as_wide_as_its_sources_say() -> None:
     """Activity factor 141 per blade and integrated design lift 0.41 (project facts), within 3 %."""
     radius = np.linspace(0.2, 1.0, 801)
-    blade = blade_element.read_blade(BLADE_FILE, stations=200)
+    blade = read_blade(stations=200)
     chord = np.interp(radius, blade.radius, blade.chord)
     lift = np.interp(radius, blade.radius, blade.design_lift)
     assert 1e5 / 16.0 * np.trapezoid(chord * radius**3, radius) == pytest.approx(141.0, rel=0.03)
@@ -172,13 +173,13 @@ def test_the_blade_is_as_wide_as_its_sources_say() -> None:
 
 def test_finer_stations_change_nothing_that_matters() -> None:
     advance, angle = np.array([0.0, 0.96, 2.96]), np.radians([28.0, 31.6, 52.4])
-    coarse = blade_element.coefficients(advance, angle, blade_element.read_blade())
-    fine = blade_element.coefficients(advance, angle, blade_element.read_blade(stations=96))
+    coarse = blade_element.coefficients(advance, angle, read_blade())
+    fine = blade_element.coefficients(advance, angle, read_blade(stations=96))
     np.testing.assert_allclose(coarse, fine, rtol=0.02)
 
 
 def test_interpolation_between_the_grid_lines_is_close(tables: dict[str, Array]) -> None:
-    blade = blade_element.read_blade()
+    blade = read_blade()
     row, column = 9, 25  # J 0.9 to 1.0, 30 to 32 deg: take-off
     advance = np.array([0.5 * (ADVANCE[row] + ADVANCE[row + 1])])
     angle = np.array([0.5 * (ANGLES[column] + ANGLES[column + 1])])
