@@ -25,6 +25,7 @@ def add(commands: "Subparsers") -> None:
         "--cluster", metavar="ADDRESS", help="run on a Dask cluster: its scheduler, such as tcp://host:8786"
     )
     parser.add_argument("--out", metavar="DIR", help="folder of the results (default: runs/study-STUDY)")
+    parser.add_argument("--csv", action="store_true", help="write the table as results.csv too")
     parser.add_argument("--yes", action="store_true", help="do not ask, however many cases there are")
     add_json(parser)
     parser.set_defaults(run=run)
@@ -46,6 +47,7 @@ def run(chosen: argparse.Namespace) -> int:
                 workers=chosen.workers,
                 cluster=chosen.cluster,
                 resume=chosen.resume,
+                csv=chosen.csv,
                 confirm=None if chosen.yes else _confirm,
                 tell=say,
                 progress=progress,

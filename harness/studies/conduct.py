@@ -41,12 +41,14 @@ def conduct(
     workers: int | None = None,
     cluster: str | None = None,
     resume: bool = False,
+    csv: bool = False,
     confirm: Callable[[int], None] | None = None,
     tell: Callable[[str], None] | None = None,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
     """Run a study into its results folder; returns its summary, which is kept there as well.
 
+    With `csv`, or where there is one already, the table is written as CSV too.
     Raises what `harness.studies.engine.run_study` raises.
     """
     if not fspath(out):
@@ -62,6 +64,8 @@ def conduct(
         tell=tell,
         progress=progress,
     )
+    if csv or (folder / table.CSV).exists():
+        write_whole(folder / table.CSV, lambda path: table.write_csv(path, outcome.table_path))
     kept = folder / SUMMARY
     if not outcome.cases_run and kept.is_file():
         try:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 TABLE = "results.parquet"
+CSV = "results.csv"
 GROUP = 4096  # rows of the file's groups: what is in memory at a time
 Rows = Iterable[tuple[Case, Result]]
 
@@ -55,6 +56,17 @@ def read(path: Path) -> "pa.Table":
         what = f"is damaged or cut short: {' '.join(str(error).split())[:200]}"
         remedy = "`harness study STUDY --resume` writes it anew from the journal beside it"
         raise InputError(what, file=path, remedy=remedy) from error
+
+
+def write_csv(path: Path, table_path: Path) -> None:
+    """Write the rows of a table as CSV: UTF-8, one header line, empty where a value is missing. Raises OSError."""
+    from pyarrow import csv, parquet
+
+    with parquet.ParquetFile(table_path) as table:
+        options = csv.WriteOptions(quoting_style="needed")
+        with csv.CSVWriter(path, table.schema_arrow, write_options=options) as writer:
+            for batch in table.iter_batches(GROUP):
+                writer.write_batch(batch)
 
 
 def fingerprint(path: Path) -> str:

@@ -1,5 +1,6 @@
 """Studies that are run: the same bytes however they are run, and nothing lost whatever happens to them."""
 
+import csv
 import json
 import os
 import resource
@@ -124,6 +125,24 @@ def test_a_finished_study_is_resumed_at_once(make: Make, tmp_path: Path) -> None
     assert sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]) - used < 1.0
     assert content(tmp_path / "out") == before
     assert run(study, tmp_path / "out", resume=True) == summary
+
+
+def test_the_csv_has_the_numbers_of_the_table(make: Make, tmp_path: Path) -> None:
+    study, out = make(6000, FAIL, 7000.1), tmp_path / "out"
+    run(study, out)
+    assert not (out / table.CSV).exists()
+    run(study, out, resume=True, csv=True)
+    with (out / table.CSV).open(encoding="utf-8", newline="") as file:
+        found = list(csv.DictReader(file))
+    assert [list(row) for row in found] == [list(row) for row in rows(out)]
+    for text, row in zip(found, rows(out), strict=True):
+        for name, value in row.items():
+            read = float(text[name]) if isinstance(value, float) else text[name]
+            assert read == ("" if value is None else value if isinstance(value, float) else str(value))
+    assert (found[1]["status"], found[1]["double"], found[1]["word"]) == ("failed", "", "")
+    (out / table.CSV).write_text("old", "utf-8")  # would be of another table: it is kept up with it
+    run(study, out, resume=True)
+    assert (out / table.CSV).read_text("utf-8").startswith('"case","key"')
 
 
 def test_a_table_that_was_damaged_is_written_anew(make: Make, tmp_path: Path) -> None:
