@@ -9,7 +9,6 @@ from harness.state import Commands, State
 from harness.units import FT, KT, NM
 
 REFRESH = 0.2  # s, of the clock on the wall
-EVERY = 5  # pilot steps between two looks at that clock
 STANDING = frozenset({"CTRL", "INN"})  # super-modes that hardly change and would fill the line
 REPORTED = frozenset({"phase", "waypoint"})
 
@@ -20,18 +19,15 @@ class Console:
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
         self._live = stream.isatty()
-        self._countdown = 1
         self._begin = time.monotonic()
         self._shown = 0.0
 
     def see(self, state: State, commands: Commands, pilot: Reporter) -> None:  # noqa: ARG002  an observer
         """Refresh the live line now and then."""
-        self._countdown -= 1
-        if self._countdown:
+        if not self._live:
             return
-        self._countdown = EVERY
         now = time.monotonic()
-        if self._live and now - self._shown >= REFRESH:
+        if now - self._shown >= REFRESH:
             self._shown = now
             width = shutil.get_terminal_size().columns - 1
             self._stream.write(f"\r{live_line(state, pilot, now - self._begin):<{width}.{width}}")

@@ -13,6 +13,7 @@ from harness.mission.model import Mission
 from harness.navigation.database import Ils, Runway, load
 from harness.pilot.pilot import Pilot
 from harness.plant.jsbsim_plant import Air, JSBSimPlant, Loads, Placement
+from harness.plant.properties import PILOT_GAINS
 from harness.resources import root
 from harness.state import Commands, State
 from harness.world import earth
@@ -24,10 +25,10 @@ LINE_UP = 30.0  # m past the threshold, where a mission without a stand begins
 
 
 class Observer(Protocol):
-    """Sees every pilot step and every event; can change nothing."""
+    """Sees every event and what the pilot does; can change nothing."""
 
     def see(self, state: State, commands: Commands, pilot: Reporter) -> None:
-        """Called once a pilot step."""
+        """Called at each pilot step at which the pilot acts: all near the runway, one or two a second elsewhere."""
 
     def note(self, event: Event) -> None:
         """Called when something happens, before the step it happens in is seen."""
@@ -71,6 +72,7 @@ def fly(
     instructor = Instructor(pilot, plant, pilot.tell)
     watch = [observer.see for observer in observers]
     state = plant.state()
+    beyond = int(time_limit / pilot.step) + 1  # the first step later than the limit
     try:
         while not pilot.done and not until(state):
             if instructor.waiting:
@@ -78,7 +80,8 @@ def fly(
             commands = pilot.act(state)
             for see in watch:
                 see(state, commands, pilot)
-            state = plant.advance(commands)
+            rest = 1 if instructor.waiting else pilot.rest
+            state = plant.advance(commands, min(rest, beyond - round(state.time / pilot.step)))
             if state.time > time_limit:
                 raise TimeLimitError(
                     f"still flying after {time_limit:.0f} s", time=state.time, phase=pilot.phase
@@ -129,6 +132,8 @@ def prepare(
         preset=preset,
     )
     configure(plant, [*manual.chosen(mission.configuration), *mission.properties])
+    for gain, name in PILOT_GAINS.items():
+        plant.setter(name)(manual.gains[gain])
     plant.use_sensors()
     return Pilot(mission, manual, departure, Ils(arrival), 1.0 / pilot_rate), plant
 

@@ -14,7 +14,7 @@ def wrap(angle: float) -> float:
 
 
 QUANTUM = 2.0**-13  # 1.2e-4: of a radian far below what an aircraft feels, of a full deflection too
-ROUNDER = 1.5 * 2.0**39  # its last binary digit is the quantum: adding it leaves no room for anything finer
+_ROUNDER = 1.5 * 2.0**39  # its last binary digit is the quantum: adding it leaves no room for anything finer
 
 
 def quantised(value: float) -> float:
@@ -22,7 +22,7 @@ def quantised(value: float) -> float:
 
     Adding and taking away a large number is ten times faster than `round`, which works in decimal.
     """
-    return value + ROUNDER - ROUNDER
+    return value + _ROUNDER - _ROUNDER
 
 
 def approach(value: float, target: float, step: float) -> float:

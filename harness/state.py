@@ -1,15 +1,14 @@
 """What crosses between pilot and plant: `State` one way, `Commands` the other. SI and radians throughout."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, fields
-from functools import partial
 from operator import attrgetter
 from typing import NamedTuple
 
 
 @dataclass(slots=True)
 class Motion:
-    """What of a State is renewed whenever the pilot's outer loops turn; the first three at every pilot step."""
+    """What of a State is renewed whenever the pilot's outer loops turn; the first three whenever the pilot looks."""
 
     time: float  # simulated time since the first frame, s
     vertical_speed: float  # m/s, up
@@ -35,8 +34,8 @@ class State(Motion):
     """The aircraft as the pilot sees it: live, renewed in place by the plant. What is to be kept must be copied.
 
     Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres. A plant renews
-    time, vertical speed and pitch at every pilot step, all of Motion `rest` steps after it did so, and the other fields
-    twelve times a second on and just above the runway, once a second elsewhere.
+    time, vertical speed and pitch whenever it stops for the pilot, all of Motion `rest` steps after it did so, and the
+    other fields twelve times a second on and just above the runway, once a second elsewhere.
     """
 
     load_factor: float  # normal, 1 in level flight
@@ -101,19 +100,26 @@ def rest(state: Motion, step: int) -> int:
     )  # close to the ground a record is made at every second step
 
 
+TO_ATTITUDE, ALONG_PATH, FLARING = 1.0, 2.0, 3.0
+"""What `Commands.vertical` asks for: an attitude, a flight path, or one with the gains of the flare."""
+
+
 class Commands(NamedTuple):
     """What the pilot asks of the aircraft.
 
-    `pitch` and `bank` are followed when the matching `*_hold` is 1 (the aircraft's attitude loops); otherwise the
+    An attitude is followed when the matching `*_hold` is 1 (the aircraft's attitude loops); otherwise the
     stick deflections `elevator` and `aileron` (-1..1, positive: nose down, right wing down) go to the surfaces.
+    The pitch attitude is that of `vertical`, one of the three below (systems/path-hold.xml).
     """
 
     throttle: float = 0.0  # thrust levers, -1 full reverse .. 0 idle .. 1 take-off
-    pitch: float = 0.0  # rad
+    path: float = 0.0  # climb over airspeed, rad
     bank: float = 0.0  # rad
     rudder: float = 0.0  # pedals, -1..1, positive: nose right
     steer: float = 0.0  # nose wheel, -1..1, positive: nose right
     brake: float = 1.0  # both sides
+    vertical: float = TO_ATTITUDE
+    pitch: float = 0.0  # the attitude to go to, rad
     pitch_hold: float = 0.0
     elevator: float = 0.0
     bank_hold: float = 0.0
@@ -127,7 +133,3 @@ class Commands(NamedTuple):
     ramp: float = 0.0  # 0 closed .. 1 open
     release: float = 0.0  # number of the load to go, in the order of `Mission.released`
     shut_down: float = 0.0  # engines whose fuel is cut: 1 for engine 1, 2, 4, 8 for the others, summed
-
-
-new_commands: Callable[[Iterable[float]], Commands] = partial(tuple.__new__, Commands)
-"""From the values in order, without the length check of `_make`, which costs more than the rest."""

@@ -2,18 +2,20 @@
 
 from collections.abc import Mapping
 from copy import copy
+from math import floor
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.log.run import Event, History
-from harness.state import FIELDS, MEDIUM_PERIOD, Commands, State, close_to_ground, values
+from harness.state import FIELDS, Commands, State, close_to_ground, values
 
 Floats = NDArray[np.float64]
 
 LOW = 300.0  # m
 BOUNCE = 5.0
+SAME_MOMENT = 1e-6  # of an interval
 RELEASED = 0.01  # brakes less than this hold nothing
 """Wheels that touch again this soon after leaving the ground, s, have bounced: no other touchdown."""
 
@@ -58,8 +60,7 @@ class FlightLog:
         self._rows: list[tuple[tuple[float, ...], Commands, str, tuple[str, ...], tuple[float, ...]]] = []
         self._mode_names: tuple[str, ...] = ()
         self._target_names: tuple[str, ...] = ()
-        self._countdown = 1
-        self._step = 0  # of the next record
+        self._due = 0.0  # time of the next record, s
         self._aloft = False
         self._brake: float | None = None
         self._on_ground = 1.0
@@ -70,11 +71,11 @@ class FlightLog:
         self._pilot: Reporter | None = None
 
     def see(self, state: State, commands: Commands, pilot: Reporter) -> None:
-        """Called once a pilot step."""
-        self._countdown -= 1
+        """Called at each pilot step at which the pilot acts."""
         self._last = state
         self._commands = commands
-        if self._countdown and self._aloft:
+        due = state.time >= self._due
+        if self._aloft and not due:
             return
         self._pilot = pilot
         if state.main_on_ground != self._on_ground:
@@ -85,10 +86,9 @@ class FlightLog:
             self._aloft = state.height > LOW
             self.passages += [(event, copy(state)) for event in self._passed]
             self._passed.clear()
-        if self._countdown <= 0:
-            period = _interval(state)
-            self._countdown = period - self._step % period
-            self._step += self._countdown
+        if due:
+            interval = _interval(state)
+            self._due = (floor(state.time / interval + SAME_MOMENT) + 1 - SAME_MOMENT) * interval
             self._aloft = state.height > LOW  # until the next record neither wheels nor brakes can matter
             self._record(state, commands, pilot)
 
@@ -152,11 +152,11 @@ class FlightLog:
                 self.moments.setdefault("brake release", copy(state))
 
 
-def _interval(state: State) -> int:
-    """Pilot steps from record to record, on multiples: no more often than most of State is renewed."""
+def _interval(state: State) -> float:
+    """Seconds from record to record, on multiples: no more often than most of State is renewed."""
     if close_to_ground(state.height, state.cas):
-        return 2
-    return MEDIUM_PERIOD if state.height < LOW else 24
+        return 1 / 12
+    return 0.5 if state.height < LOW else 1.0
 
 
 def _integral(time: Floats, rate: Floats) -> Floats:

@@ -28,7 +28,7 @@ _STATE_UNITS = {
 _OTHER_UNITS = {
     "m": "distance target_level target_level_error target_cross_track target_distance_to_go",
     "m/s": "target_cas",
-    "rad": "command_pitch command_bank",
+    "rad": "command_path command_pitch command_bank",
 }
 UNITS = {
     name: unit

@@ -40,7 +40,7 @@ class TaxiGains(NamedTuple):
 class ControlSystem:
     """The controllers, which of them are in command, and the standing settings.
 
-    The slow loops turn in `turn_outer_loops`; the flight path is flown by `vertical.fly` at every pilot step.
+    The loops turn in `turn_outer_loops`; what they ask for is followed by the pilot's faster laws in the simulator.
     """
 
     def __init__(
@@ -48,12 +48,11 @@ class ControlSystem:
         manual: FlightManual,
         route: NavigationComputer,
         runway: Runway,
-        step: float,
         loads: Sequence[str] = (),
         *,
         inner_modes: bool = False,
     ) -> None:
-        """`runway` is the one in use at the beginning; `step` the time between two pilot steps, s.
+        """`runway` is the one in use at the beginning.
 
         `loads` are the names of what can be released, in the order of their numbers, from 1. `inner_modes`: the
         aircraft's flight control leaves holding attitudes to the pilot.
@@ -63,7 +62,7 @@ class ControlSystem:
         self.route = route
         self._inner_modes = inner_modes
         self.speed = SpeedMode(gains)
-        self.vertical = VerticalMode(gains, step)
+        self.vertical = VerticalMode(gains)
         self.horizontal = HorizontalMode(gains)
         self.owners = dict.fromkeys(CONTROLS, "DIRECT")
         self.runway = Centreline(runway)
@@ -211,6 +210,7 @@ class ControlSystem:
         self.target_cas = route.target_cas if words == "leg-speed" else self._speed_value
         self._bank = quantised(self.horizontal.update(state, route.guidance))
         speed.observe(state, dt)
+        self.vertical.follow(state, dt)
         path = 0.0
         if speed.sub_mode != "THR":
             speed.move(dt)
@@ -229,19 +229,21 @@ class ControlSystem:
         brake = self._taxi_brake if self._taxiing else self._settings.brake
         return self.speed.lever, self._rudder, self._wheel, brake
 
-    def command(self, pitch: float) -> Commands:
-        """All commands, with the pitch attitude that `vertical.fly` asks for."""
-        settings, owners = self._settings, self.owners
+    def command(self) -> Commands:
+        """All commands."""
+        settings, owners, vertical = self._settings, self.owners, self.vertical
         lever, rudder, wheel, brake = self._by_hand()
         if self._limbs:
             lever, rudder, wheel, brake = (quantised(limb.value) for limb in self._limbs)
         return Commands(
             lever,
-            pitch,
+            vertical.wanted,
             self._bank,
             rudder,
             wheel,
             brake,
+            vertical.law,
+            vertical.attitude,
             float(owners["elevator"] == "CONTROLLER"),
             settings.elevator,
             float(owners["aileron"] == "CONTROLLER"),

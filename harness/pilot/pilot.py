@@ -1,7 +1,7 @@
 """The mathematical pilot: reads checklists, carries out procedures, and flies with the modes they select (Fig. 2)."""
 
 from collections.abc import Callable, Mapping, Sequence
-from math import inf, nan
+from math import ceil, inf, nan
 
 from harness.errors import StuckError
 from harness.log.run import Event
@@ -17,12 +17,12 @@ from harness.pilot.machine import END, START, PhaseGraph
 from harness.pilot.procedure import SAME_MOMENT, Procedure, ReadyStep
 from harness.pilot.route import NavigationComputer
 from harness.plan import Emergency, Step
-from harness.state import Commands, State, new_commands, rest
+from harness.state import Commands, State, rest
 from harness.units import show
 from harness.vocabulary import OUTCOMES
 
-FAST = frozenset({"time", "time-in-phase", "vertical-speed", "pitch"})
-"""Quantities renewed at every pilot step; what waits for another one is read when the outer loops turn."""
+FAST = frozenset({"vertical-speed", "pitch"})
+"""Quantities looked at in every pilot step by whoever waits for them; others when the outer loops turn."""
 ROUTE_PERIOD = 48  # pilot steps between two looks at the route, far from the next waypoint
 NEAR_WAYPOINT = 15000.0  # m: more than the lead of any turn
 LEVEL_REACHED = 30.0  # m: a level this near is captured however slowly it is approached
@@ -30,12 +30,12 @@ DEFAULT_TIME_LIMIT = 7200.0  # s in one phase, where the manual says nothing
 
 
 class Pilot:
-    """Flies one mission with one flight manual. `act` is called once a pilot step and remembers what it needs."""
+    """Flies one mission with one flight manual. `act` is called when `rest` is over and remembers what it needs."""
 
     def __init__(
         self, mission: Mission, manual: FlightManual, departure: Runway, arrival: Ils, step: float
     ) -> None:
-        """`step` is the time between two calls of `act`, s."""
+        """`step` is the shortest time between two calls of `act`, s."""
         self.mission = mission
         self.manual = manual
         self.step = step
@@ -45,10 +45,7 @@ class Pilot:
         self.route.on_passage = self._passed
         self.route.on_reception = self._heard
         inner_modes = any(setting.inner_modes for setting in manual.chosen(mission.configuration))
-        self.control = ControlSystem(
-            manual, self.route, departure, step, mission.released, inner_modes=inner_modes
-        )
-        self._fly = self.control.vertical.fly
+        self.control = ControlSystem(manual, self.route, departure, mission.released, inner_modes=inner_modes)
         self.phase = START
         self.phase_begin = 0.0
         self.done = False
@@ -72,8 +69,10 @@ class Pilot:
         self._approaching = False
         self._on_runway = False
         self._alert = False  # something waited for changes at every step
-        self._steps = -1  # of the pilot
+        self._moments: list[float] = []  # times that are waited for, s
+        self._steps = 0  # of the pilot, since the first frame
         self._turn = 0  # the step at which the outer loops turn
+        self._next = 0  # the step at which something is to be done
         self._period = 1
         self._route_rest = 0
         self._commands = Commands()
@@ -108,21 +107,23 @@ class Pilot:
         ways = [checklist.waiting(self._state) for checklist in self._checklists]
         return min((items for items in ways if items), key=len, default=[None])[0]
 
+    @property
+    def rest(self) -> int:
+        """Pilot steps from the last call of `act` until it has to be called again."""
+        return max(self._next - self._steps, 1)
+
     def act(self, state: State) -> Commands:
         """Decide, from the aircraft's state, what to command now.
 
         Raises StuckError when a phase lasts too long, OverrunError when the runway has been left.
         """
-        self._steps += 1
-        if self._steps < self._turn and not self._alert:
-            commands = self._commands
-            pitch = self._fly(state.vertical_speed, state.pitch)
-            if pitch != commands.pitch:
-                commands = self._commands = new_commands((commands[0], pitch, *commands[2:]))
-            return commands
-        return self._act_fully(state)
+        self._steps = round(state.time / self.step)
+        if self._steps >= self._next:
+            self._decide(state)
+            self._next = self._next_look()
+        return self._commands
 
-    def _act_fully(self, state: State) -> Commands:
+    def _decide(self, state: State) -> None:
         outer = self._steps >= self._turn
         if outer:
             self._look_around(state)
@@ -143,8 +144,14 @@ class Pilot:
                 self.control.runway.check(state, self.phase)
             self._period = rest(state, self._steps)
             self._turn = self._steps + self._period
-        self._commands = self.control.command(self._fly(state.vertical_speed, state.pitch))
-        return self._commands
+        self._commands = self.control.command()
+
+    def _next_look(self) -> int:
+        """The step at which the outer loops turn, or something before it is waited for."""
+        if self._alert:
+            return self._steps + 1
+        due = [ceil(moment / self.step - SAME_MOMENT) for moment in self._moments]
+        return min([self._turn, *(max(step, self._steps + 1) for step in due if step >= self._steps)])
 
     def _look_around(self, state: State) -> None:
         """Renew what is known of route, level and engines."""
@@ -173,6 +180,12 @@ class Pilot:
             if procedure.steps:
                 waited.extend(procedure.steps[0].when)
         self._alert = any(entry.condition.quantity in FAST for entry in waited)
+        begin = {"time": 0.0, "time-in-phase": self.phase_begin}
+        self._moments = [
+            begin[entry.condition.quantity] + entry.required(self._state)
+            for entry in waited
+            if entry.condition.quantity in begin and self._state is not None
+        ]
 
     # What conditions measure.
 

@@ -1,9 +1,10 @@
-"""A JSBSim aircraft as a plant: takes Commands, flies a pilot step of frames, hands back a State."""
+"""A JSBSim aircraft as a plant: takes Commands, flies some pilot steps of frames, hands back a State."""
 
 import ctypes
 import re
 from collections.abc import Callable, Mapping, Sequence
-from math import degrees, nan
+from itertools import repeat, starmap
+from math import ceil, degrees, nan
 from operator import call
 from pathlib import Path
 from typing import NamedTuple
@@ -94,7 +95,7 @@ class JSBSimPlant:
 
         Raises InputError when the aircraft cannot be loaded or lacks a property that the pilot needs.
         """
-        self._frames = range(frames_per_step)
+        self._frames = frames_per_step
         self._step = frames_per_step / rate
         self._terrain = terrain
         self._inputs = inputs or Inputs()
@@ -110,7 +111,7 @@ class JSBSimPlant:
         self._true_height = self._node("position/h-agl-ft").get_double_value
         self._standing_height = self._true_height() * FT
         self._bind({})
-        self._blind = MEDIUM_PERIOD  # pilot steps until more than a glance is taken
+        self._next_look = MEDIUM_PERIOD  # pilot step at which more than a glance is taken
         self._setters = [[self.setter(name) for name in COMMANDS[field]] for field in Commands._fields]
         shut_down = Commands._fields.index("shut_down")
         self._setters[shut_down] = [_fuel_lever(*engine) for engine in enumerate(self._setters[shut_down])]
@@ -134,13 +135,7 @@ class JSBSimPlant:
     def use_sensors(self) -> None:
         """Let State come from the aircraft's sensors from now on, where it has one, if they are on."""
         if self._read("sensor/active"):
-            for _ in range(
-                round(WARM_UP / self._step)
-            ):  # pilot steps, so that the flight's clock is the simulator's
-                for _ in self._frames:
-                    self._run()
-                self._steps += 1
-            self._inputs.steps = self._steps
+            self._fly(round(WARM_UP / self._step))
             self._bind(SENSED)
             self._look(whole=True)
 
@@ -148,20 +143,15 @@ class JSBSimPlant:
         """The aircraft as it is now, renewed in place by `advance`."""
         return self._state
 
-    def advance(self, commands: Commands) -> State:
-        """Fly one pilot step under `commands`.
+    def advance(self, commands: Commands, steps: int = 1) -> State:
+        """Fly `steps` pilot steps under `commands`, no more than `rest` says if State is to be renewed.
 
         Raises NumericalError when the state is no longer finite, GroundImpactError when the aircraft hit the ground.
         """
         if commands is not self._written:
             self._write(commands)
-        run = self._run
-        for _ in self._frames:
-            run()
-        self._steps += 1
-        self._inputs.steps = self._steps
-        self._blind -= 1
-        if self._blind <= 0:
+        self._fly(steps)
+        if self._steps >= self._next_look:
             return self._look_around()
         if not self._instruments.glance(self._steps * self._step):
             raise self._not_finite()
@@ -171,13 +161,24 @@ class JSBSimPlant:
         """Renew all of State, whatever was due. Raises NumericalError."""
         self._look(whole=True)
 
+    def _fly(self, steps: int) -> None:
+        # `all` calls without a line of Python between two frames, and ends when the aircraft ends the simulation.
+        going = all(starmap(self._run, repeat((), steps * self._frames)))
+        self._steps += steps
+        if not going:
+            self._steps = ceil(self._fdm.get_sim_time() / self._step - 1e-6)
+        self._inputs.steps = self._steps
+        if not going:
+            raise self._not_finite()
+
     def _look_around(self) -> State:
         """Read more of State, and see whether it is still the state of an aircraft."""
         self._look(whole=self._steps % self._whole_period == 0)
         state = self._state
         sink, self._sink = self._sink, -state.vertical_speed
-        self._blind = rest(state, self._steps)
-        self._whole_period = 2 if self._blind == 1 else SLOW_PERIOD
+        pause = rest(state, self._steps)
+        self._next_look = self._steps + pause
+        self._whole_period = 2 if pause == 1 else SLOW_PERIOD
         height = self._true_height() * FT - self._standing_height
         if height < LOW:
             struck = any(map(call, self._structure)) or height < BELOW_GROUND

@@ -90,8 +90,10 @@ SENSED = {
 """What a pilot who flies by the aircraft's sensors (systems/sensors.xml) reads in place of what; the same units."""
 
 _COMMANDS = {
+    "path": "path/target-rad",
+    "vertical": "path/mode",
+    "pitch": "path/attitude-target-rad",
     "pitch_hold": "ap/pitch-mode",
-    "pitch": "ap/pitch-target-rad",
     "elevator": "fcs/elevator-cmd-norm",
     "bank_hold": "ap/roll-mode",
     "bank": "ap/bank-target-rad",
@@ -106,6 +108,15 @@ _COMMANDS = {
     "ramp": "payload/ramp-cmd-norm",
     "release": "payload/release",
 }
+PILOT_GAINS = {
+    "path-gain": "path/gain",
+    "path-load-factor-increment": "path/load-factor-increment",
+    "flare-path-gain": "path/flare-gain",
+    "flare-load-factor-increment": "path/flare-load-factor-increment",
+    "incidence-filter": "path/incidence-filter-sec",
+    "pitch-rate": "path/pitch-rate-rad_sec",
+}
+"""Gains of the flight manual that the pilot's law in systems/path-hold.xml needs, SI."""
 BRAKES = ("fcs/left-brake-cmd-norm", "fcs/right-brake-cmd-norm")
 CROSSFEED: tuple[str, ...] = tuple(f"fuel/crossfeed-open[{engine}]" for engine in range(4))
 THROTTLES: tuple[str, ...] = tuple(f"fcs/throttle-cmd-norm[{engine}]" for engine in range(4))

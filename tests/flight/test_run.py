@@ -106,7 +106,7 @@ def test_an_interrupted_flight_is_kept(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt):
         harness.fly(MISSION, out=tmp_path, progress=Impatient(10.0))
     run = read_run(tmp_path / "circuit-001")
-    assert run.history["time"][-1] == pytest.approx(10.0, abs=0.1)
+    assert 10.0 < run.history["time"][-1] <= 10.5  # at the pilot's next look
     assert (run.summary["completed"], run.summary["reason"]) == (False, "interrupted from the keyboard")
 
 
