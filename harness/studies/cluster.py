@@ -1,5 +1,6 @@
 """The cases of a study on a Dask cluster, given by the address of its scheduler. The only user of `distributed`."""
 
+import asyncio
 import contextlib
 import logging
 import time
@@ -28,6 +29,7 @@ class Cluster:
         """Connect to the scheduler at `address`, such as tcp://host:8786. Raises InputError."""
         try:
             from distributed import Client
+            from distributed.utils import LoopRunner
         except ImportError:
             raise InputError(
                 "a cluster needs the library `distributed`, which is not installed here",
@@ -38,13 +40,16 @@ class Cluster:
         self._client: Any = None
         self._levels = _silenced()
         try:
+            LoopRunner().run_sync(_knock, address)  # type: ignore[no-untyped-call]
             self._client = Client(  # type: ignore[no-untyped-call]
                 address, timeout=CONNECT_LIMIT, set_as_default=False
             )
             self._client.wait_for_workers(1, timeout=CONNECT_LIMIT)
-        except (OSError, ValueError, TypeError) as error:  # a TimeoutError is an OSError
+        except Exception as error:  # noqa: BLE001  what answers there may be no scheduler, and say anything
             if self._client is None:
-                reason = " ".join(str(error).split())[:200] or type(error).__name__
+                known = isinstance(error, OSError | ValueError)
+                said = str(error) if known else "what answers there is no scheduler"
+                reason = " ".join(said.split())[:200] or "no answer"
                 self.close()
                 raise self._error(f"cannot be reached: {reason}", "is its scheduler running there?") from None
             self.close()
@@ -112,6 +117,14 @@ class Cluster:
 
     def _error(self, what: str, remedy: str) -> InputError:
         return InputError(f"the cluster {what}", file=f"--cluster {self._address}", remedy=remedy)
+
+
+async def _knock(address: str) -> None:
+    """Connect, and leave: a Client that could not connect complains with a traceback when it is taken down."""
+    from distributed.comm.core import connect
+
+    comm = await asyncio.wait_for(connect(address), CONNECT_LIMIT)  # type: ignore[no-untyped-call]
+    await comm.close()
 
 
 def _silenced() -> dict[logging.Logger, int]:

@@ -17,6 +17,7 @@ from harness.studies.journal import JOURNAL, Journal, Result, write_whole
 from harness.studies.model import Study
 
 MANY = 10_000  # cases: more are asked about before they are begun
+MOST_WORKERS = 16  # for each core
 AHEAD = 2  # cases handed out for each worker, so that none waits for the journal
 TICK = 1.0  # s between two looks at what else may have happened
 STORED = ("definition", "aircraft", "aircraft_files", "code")
@@ -100,10 +101,7 @@ def run_study(
     `confirm` is called with the number of cases when they are many, and raises to stop; `tell` with a line that says
     what is kept of an earlier run. Raises InputError, OutputError; whatever happens, results that were journalled stay.
     """
-    if workers is not None and workers < 1:
-        raise InputError(
-            "there is at least one worker", file=f"--workers {workers}", remedy="e.g. --workers 2"
-        )
+    _check_workers(workers, cluster)
     cases = None
     if not (folder / JOURNAL).exists():
         cases = _ready(study, confirm)  # before anything is written
@@ -117,6 +115,23 @@ def run_study(
             tell(_kept(cases, journal, facts))
         journal.note({"study": study.name, "session": str(journal.session), "table": "", **facts})
         return _Run(study, cases, journal, progress).finish(folder, workers, cluster)
+
+
+def _check_workers(workers: int | None, cluster: str | None) -> None:
+    """Raise InputError for a number of workers that cannot be meant."""
+    if workers is None:
+        return
+    most = MOST_WORKERS * cores()
+    if cluster is not None:
+        what, remedy = "a cluster has its own workers", "choose either --workers or --cluster"
+    elif workers < 1:
+        what, remedy = "there is at least one worker", "e.g. --workers 2"
+    elif workers > most:
+        what = f"more than {most} workers are too many for {cores()} cores: each takes some 70 MB"
+        remedy = f"--workers {cores()}, or nothing, which is the same, is the fastest"
+    else:
+        return
+    raise InputError(what, file=f"--workers {workers}", remedy=remedy)
 
 
 def _ready(study: Study, confirm: Callable[[int], None] | None) -> Cases:

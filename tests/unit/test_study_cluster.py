@@ -1,9 +1,12 @@
 """Studies on a Dask cluster: a real scheduler and real worker processes of this computer."""
 
 import signal
+import socket
 import sys
+import threading
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -63,6 +66,35 @@ def test_a_cluster_that_cannot_be_reached_is_told_at_once(address: str, tmp_path
     assert time.monotonic() - begin_time < 30
     assert address in str(caught.value)
     assert run(write(tmp_path, 6000), tmp_path / "out")["counts"] == {"ok": 1}
+
+
+@pytest.mark.parametrize("words", [b"", b"HTTP/1.1 400 Bad Request and more of it"])
+def test_what_is_no_scheduler_is_told(
+    words: bytes, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """One that says nothing, and one that says what reads as a message of exabytes."""
+
+    def answer() -> None:
+        with suppress(OSError):
+            while True:
+                talks.append(server.accept()[0])
+                talks[-1].sendall(words)
+
+    talks: list[socket.socket] = []
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        threading.Thread(target=answer, daemon=True).start()
+        begin_time = time.monotonic()
+        with pytest.raises(InputError, match="the cluster cannot be reached"):
+            run(
+                write(tmp_path, 6000),
+                tmp_path / "out",
+                cluster=f"tcp://127.0.0.1:{server.getsockname()[1]}",
+            )
+        assert time.monotonic() - begin_time < 30
+        server.shutdown(socket.SHUT_RDWR)
+    for talk in talks:
+        talk.close()
+    assert "Traceback" not in capfd.readouterr().err
 
 
 def test_without_the_library_a_cluster_is_explained(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

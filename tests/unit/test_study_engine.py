@@ -331,6 +331,11 @@ def test_the_command_prints_a_table_or_data(
 def test_wrong_numbers_of_workers_are_refused(make: Make, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="at least one worker"):
         run(make(6000), tmp_path / "out", workers=0)
+    with pytest.raises(InputError, match="too many for"):
+        run(make(6000), tmp_path / "out", workers=100_000)
+    with pytest.raises(InputError, match="a cluster has its own workers"):
+        run(make(6000), tmp_path / "out", workers=2, cluster="tcp://127.0.0.1:1")
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_dotted_path_finds_its_way() -> None:
