@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from harness.command_line import INTERRUPTED, add_json, end_as_interrupted, print_json, say
@@ -35,6 +36,7 @@ def run(chosen: argparse.Namespace) -> int:
     """`harness study`: exit code 3 if a case did not succeed."""
     from harness.studies.conduct import conduct, default_folder, open_study
     from harness.studies.console import StudyProgress, describe_study
+    from harness.studies.journal import JOURNAL
 
     study = open_study(chosen.study)
     end_as_interrupted()
@@ -53,7 +55,9 @@ def run(chosen: argparse.Namespace) -> int:
                 progress=progress,
             )
     except KeyboardInterrupt:
-        say(f"harness: interrupted\n    what was finished is in {folder}; continue with --resume")
+        begun = Path(folder, JOURNAL).exists()
+        kept = f"what was finished is in {folder}; continue with --resume" if begun else "nothing was begun"
+        say(f"harness: interrupted\n    {kept}")
         return INTERRUPTED
     if chosen.json:
         print_json(summary)

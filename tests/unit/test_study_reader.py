@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.stats import chisquare, kstest
 
 from harness import resources
 from harness.errors import InputError
@@ -16,6 +17,8 @@ from harness.studies import design
 from harness.studies.cases import Cases
 from harness.studies.model import Study
 from harness.studies.reader import read_study
+from harness.studies.report import sobol
+from harness.units import parse
 
 Read = Callable[..., Study]
 FUEL = '<factor path="loading/fuel" name="fuel"><values list="5 t, 6 t, 7000 kg"/></factor>'
@@ -130,6 +133,62 @@ def test_a_sobol_design_is_saltellis_scheme(read: Read) -> None:
     a, b, first, second = np.array(numbers(study), float).reshape(4, 8, 2)
     assert (first == np.column_stack((b[:, 0], a[:, 1]))).all()
     assert (second == np.column_stack((a[:, 0], b[:, 1]))).all()
+
+
+def _normal(z: float) -> float:
+    return 0.5 * (1.0 + math.erf(z / math.sqrt(2.0)))
+
+
+@pytest.mark.parametrize(
+    ("spread", "below"),
+    [
+        ('<range from="4 t" to="8 t"/>', lambda x: (x - 4e3) / 4e3),
+        ('<normal mean="6 t" standard-deviation="500 kg"/>', lambda x: _normal((x - 6e3) / 500.0)),
+        (
+            '<normal mean="6 t" standard-deviation="1 t" from="5 t" to="8 t"/>',
+            lambda x: (_normal((x - 6e3) / 1e3) - _normal(-1.0)) / (_normal(2.0) - _normal(-1.0)),
+        ),
+        ('<lognormal median="6 t" sigma="0.2"/>', lambda x: _normal(math.log(x / 6e3) / 0.2)),
+        (
+            '<triangular from="4 t" mode="5 t" to="8 t"/>',
+            lambda x: (x - 4e3) ** 2 / 4e6 if x < 5e3 else 1.0 - (8e3 - x) ** 2 / 12e6,
+        ),
+    ],
+)
+@pytest.mark.parametrize("kind", ["monte-carlo", "latin-hypercube", "sobol"])
+def test_what_is_flown_is_distributed_as_the_file_says(
+    read: Read, kind: str, spread: str, below: Callable[[float], float]
+) -> None:
+    """Against the closed forms, by the samples' own texts, which are what a case is given."""
+    n = 1024
+    study = read(*sampled(kind, n, spread, '<range from="80 t" to="120 t"/>', seed=7))
+    flown, other = np.array(
+        [[parse(level.text, "mass") for level in point if level] for point in design.points(study)]
+    ).T
+    assert flown.tolist() == [row[0] for row in numbers(study)]  # what the table says
+    shares = np.array([below(x) for x in flown[:n]])
+    assert kstest(shares, "uniform").pvalue > 0.01
+    assert abs(np.corrcoef(shares, other[:n])[0, 1]) < 4.0 / math.sqrt(n)
+    if kind != "monte-carlo":  # one in every stratum; of a Sobol design in its first sample and in its second
+        for block in (flown[:n], flown[n : 2 * n]) if kind == "sobol" else (flown,):
+            strata = np.floor(n * np.array([below(x) for x in block]))
+            assert sorted(strata) == list(range(n))
+
+
+def test_words_and_levels_are_equally_likely(read: Read) -> None:
+    study = read(*sampled("monte-carlo", 3000, '<values list="5 t, 6 t, 7 t"/>', seed=7))
+    counts = np.unique(np.array(numbers(study), float), return_counts=True)[1]
+    assert chisquare(counts).pvalue > 0.01
+
+
+def test_sobol_indices_are_those_of_ishigamis_function(read: Read) -> None:
+    """Closed forms, a = 7, b = 0.1: Ishigami and Homma, ISUMA 1990, as in Saltelli et al. (2008), p. 196."""
+    uniform = '<range from="0 t" to="1 t"/>'
+    study = read(*sampled("sobol", 4096, uniform, uniform, '<range from="0 hPa" to="1 hPa"/>', seed=3))
+    x, y, z = math.pi * (2.0 * design.samples(study).T - 1.0)
+    found = list(sobol(study, np.sin(x) + 7.0 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x)).values())
+    assert [of["first"] for of in found] == pytest.approx([0.3139, 0.4424, 0.0], abs=0.02)
+    assert [of["total"] for of in found] == pytest.approx([0.5576, 0.4424, 0.2437], abs=0.02)
 
 
 def test_cut_normals_stay_within_and_directions_wrap(read: Read) -> None:
