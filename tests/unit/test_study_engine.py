@@ -231,6 +231,17 @@ def test_an_interrupted_study_says_so_and_goes_on(make: Make, tmp_path: Path, en
     assert len(rows(tmp_path / "out")) == 30
 
 
+def test_a_study_interrupted_before_it_began_says_so(
+    make: Make, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupt(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("harness.studies.conduct.run_study", interrupt)
+    assert cli.main(["study", str(make(6000)), "--out", str(tmp_path / "out")]) == 130
+    assert "nothing was begun" in capsys.readouterr().err
+
+
 def test_no_worker_outlives_its_parent(make: Make, tmp_path: Path) -> None:
     process = begin(make(HANG, 6000, limit="500 s"), tmp_path / "out", "--workers", "2")
     await_marks(tmp_path / "out", 1)
