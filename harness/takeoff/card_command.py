@@ -11,6 +11,7 @@ from harness.units import UnitError, parse
 
 if TYPE_CHECKING:
     from harness.command_line import Subparsers
+    from harness.takeoff.field_flights import Runway
     from harness.takeoff.runway import Site
 
 PILOT_RATE = 120  # steps a second: V1 and VR are met within 0.03 m/s
@@ -58,15 +59,14 @@ def run_field(chosen: argparse.Namespace) -> int:
     fields = options.conditions(chosen)
     workers = options.workers(chosen.workers)
     from harness.takeoff.case import TakeOff, check_all
-    from harness.takeoff.field import field_of
-    from harness.takeoff.fleet import fly_all
+    from harness.takeoff.field import fields_of
     from harness.takeoff.text import field_data, field_text
 
     cases = [TakeOff(mass, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields) for mass in masses]
     check_all(cases)
     rows = [
         {"mass_kg": case.mass, **field_data(field)}
-        for case, field in zip(cases, fly_all(field_of, cases, workers), strict=True)
+        for case, field in zip(cases, fields_of(cases, workers), strict=True)
     ]
     if chosen.json:
         print_json(rows)
@@ -89,17 +89,22 @@ def run_card(chosen: argparse.Namespace) -> int:
         )
     wind = _wind_from(chosen)
     fields = options.conditions(chosen)
+    workers = options.workers(chosen.workers)
     site = _site(chosen, fields)
+    from harness.manual import read_manual
     from harness.takeoff.card import card
     from harness.takeoff.case import TakeOff
+    from harness.takeoff.greatest import greatest_mass
     from harness.takeoff.runway import deviation, on_site
     from harness.takeoff.text import card_data, card_text
 
     if celsius is not None:
         fields["isa_deviation"] = deviation(celsius, site.elevation)
     case = on_site(TakeOff(mass, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields), site, *wind)
-    result = card(case, site.available, search=not chosen.no_greatest_mass)
-    data = card_data(result, site)
+    manual = read_manual(case.aircraft)
+    result = card(case, site.available, manual, workers=workers)
+    greatest = None if chosen.no_greatest_mass else greatest_mass(result, manual, workers)
+    data = card_data(result, site, greatest)
     folder = _keep(data, chosen.out) if chosen.out else None
     if chosen.json:
         print_json(data)
@@ -119,7 +124,7 @@ def _keep(data: dict[str, Any], out: str) -> Any:  # noqa: ANN401  the path of t
 
 
 def _site(chosen: argparse.Namespace, fields: dict[str, Any]) -> "Site":
-    from harness.takeoff.field import Runway
+    from harness.takeoff.field_flights import Runway
     from harness.takeoff.runway import Site, from_database
 
     given = {
@@ -134,10 +139,8 @@ def _site(chosen: argparse.Namespace, fields: dict[str, Any]) -> "Site":
             )
     if chosen.runway is not None:
         site = from_database(chosen.runway)
-        run, distance, stop = site.available
-        available = Runway(given.get("tora", run), given.get("toda", distance), given.get("asda", stop))
         return site._replace(
-            available=available,
+            available=_available(given, site.available),
             elevation=fields.get("elevation", site.elevation),
             slope=fields.get("slope", site.slope),
         )
@@ -148,8 +151,22 @@ def _site(chosen: argparse.Namespace, fields: dict[str, Any]) -> "Site":
             remedy="--runway EDDK/14L, or --tora 2500m with --elevation and --slope",
         )
     tora = given["tora"]
-    available = Runway(tora, given.get("toda", tora), given.get("asda", tora))
+    available = _available(given, Runway(tora, tora, tora))
     return Site("runway by hand", 0.0, fields.get("elevation", 0.0), fields.get("slope", 0.0), available)
+
+
+def _available(given: dict[str, float], runway: "Runway") -> "Runway":
+    """The distances given, the rest those of the runway; the take-off run alone makes the other two."""
+    tora = given.get("tora", runway.run)
+    spare = (tora, tora) if "tora" in given else (runway.distance, runway.stop)
+    toda, asda = given.get("toda", spare[0]), given.get("asda", spare[1])
+    if toda < tora:
+        raise InputError(
+            f"a TODA of {toda:.0f} m is less than the TORA of {tora:.0f} m",
+            file="--toda",
+            remedy="TODA is TORA and the clearway, if there is one",
+        )
+    return type(runway)(tora, toda, asda)
 
 
 def _wind_from(chosen: argparse.Namespace) -> tuple[float | None, float]:

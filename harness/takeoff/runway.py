@@ -7,11 +7,12 @@ from typing import NamedTuple
 from harness.errors import InputError
 from harness.navigation.database import load
 from harness.takeoff.case import TakeOff
-from harness.takeoff.field import Runway
+from harness.takeoff.field_flights import Runway
 from harness.units import DEG
 from harness.world.atmosphere import temperature
 
 HARD = ("asphalt", "concrete", "paved")
+FREEZING = 273.15  # K
 HEADWIND_SHARE, TAILWIND_SHARE = 0.5, 1.5  # CS 25.105(d)(1): what is counted of the reported wind
 
 
@@ -66,7 +67,7 @@ def on_site(case: TakeOff, site: Site, wind_from: float | None = None, wind: flo
 
 def deviation(celsius: float, elevation: float) -> float:
     """How much warmer than ISA it is, K, with `celsius` degrees on a runway at `elevation` (m)."""
-    return celsius + 273.15 - temperature(elevation)
+    return celsius + FREEZING - temperature(elevation)
 
 
 def wind_direction(text: str) -> float | None:

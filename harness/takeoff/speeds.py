@@ -1,8 +1,9 @@
 """The speeds of CS 25.103 to 25.107 for one take-off: minimum control speeds flown, the others from them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import cos, nan, sin
+from functools import cache
+from math import cos, isnan, nan, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -11,45 +12,80 @@ from scipy.optimize import brentq
 from harness.errors import FlightError, OverrunError
 from harness.flight import fly
 from harness.manual import FlightManual
+from harness.mission.envelope import SLOWEST_DECISION
 from harness.numerics import wrap
 from harness.state import State
-from harness.takeoff.case import Happening, TakeOff
+from harness.takeoff.case import Happening, TakeOff, lightest
+from harness.takeoff.fleet import fly_all
 from harness.takeoff.flight import TIME_LIMIT, prepared
-from harness.units import FT
+from harness.units import FT, TONNE
 
 DEVIATION = 30 * FT  # CS 25.149(e): the most the path may leave the line, rudder alone
-SLOWEST, FASTEST, UPWARDS = 50.0, 85.0, 2.0  # m/s: VMCG lies between, looked for in these steps
+SLOWEST, START, FASTEST, UPWARDS = 30.0, 50.0, 85.0, 2.0  # m/s: VMCG lies between, looked for in these steps
 BEGUN = 2.0  # m/s beyond the failure the path has left the line
 ROLL_ON = 14.0  # m/s beyond it the path is parallel to the line again, or lost
 TOLERANCE = 0.1  # m/s
 HIGH = 100.0  # m: in the air, for VMCA
 STEADY = 12.0  # s after full rudder; the first swing is not looked at
 TURN_OVER = 1.0  # s
+NO_SLOWER = 5.0  # s
 V2_OVER_VMCA, VR_OVER_VMCA = 1.10, 1.05  # CS 25.107(b)(3), (e)(1)(ii)
 V2_OVER_VSR = 1.08  # CS 25.107(b)(2)(i): turbo-propeller powered, more than three engines
+PILOT_RATE = 24  # 1/s: as in a mission; minimum control speeds are told to a tenth of a metre a second
 GAINED = 3.0  # m/s from VR to 35 ft with an engine failed; estimate, put right by flights (FieldFlights)
 
 
+class ControlSpeeds(NamedTuple):
+    """Minimum control speeds of a day, m/s CAS: one of each for every mass, as CS 25.149 wants them.
+
+    They are flown at the lightest take-off mass, where both are greatest: there the wheels hold least on the ground,
+    and in the air 5 deg of bank carry least of the rudder's side force. `vmca` is NaN when even there the aircraft
+    flies straight down to the slowest speed it flies at all; `vmca_told` then says so.
+    """
+
+    vmcg: float
+    vmca: float
+    vmca_told: str
+
+
 class Speeds(NamedTuple):
-    """Speeds of one take-off, m/s CAS. `vmca` is NaN where the aircraft stalls first; then it limits nothing."""
+    """Speeds of one take-off, m/s CAS. `vmca` is NaN where `vmca_told` says why; then it limits nothing."""
 
     vs: float  # power-off 1-g stall speed, from the flight manual's lift coefficient: not flown
     vmcg: float
     vmca: float
+    vmca_told: str
     v2_min: float
     v2: float
+    vr_min: float
     vr: float
 
 
-def take_off_speeds(case: TakeOff, manual: FlightManual, vmcg_known: float | None = None) -> Speeds:
-    """Fly what has to be flown for them, VMCG if it is not known. VR is the case's, else a first guess of the least."""
+def control_speeds(case: TakeOff, manual: FlightManual, workers: int = 1) -> ControlSpeeds:
+    """Fly for VMCG and VMCA of the day and runway of `case`. Raises FlightError."""
+    light = replace(case, mass=lightest(manual), vr=None, surface="dry", crosswind=0.0, pilot_rate=PILOT_RATE)
+    ground, air = fly_all(_minimum, [(vmcg, light, manual), (vmca, light, manual)], workers)
+    told = (
+        ""
+        if not isnan(air)
+        else f"straight to the slowest it flies even at {light.mass / TONNE:.1f} t: limits nothing"
+    )
+    return ControlSpeeds(ground, air, told)
+
+
+def _minimum(asked: tuple[Callable[[TakeOff, FlightManual], float], TakeOff, FlightManual]) -> float:
+    find, case, manual = asked
+    return find(case, manual)
+
+
+def take_off_speeds(case: TakeOff, manual: FlightManual, control: ControlSpeeds) -> Speeds:
+    """The speeds of a mass that follow from those of the day. VR is the case's, else a first guess of the least."""
     stall = manual.stall_speed(case.mass, case.flaps)
-    ground = vmcg(case, manual) if vmcg_known is None else vmcg_known
-    air = vmca(case, manual)
-    least = np.fmax(V2_OVER_VSR * stall, V2_OVER_VMCA * air)
-    v2 = float(np.fmax(manual.speed("V2", case.mass), least))
-    vr = float(np.fmax(v2 - GAINED, VR_OVER_VMCA * air)) if case.vr is None else case.vr
-    return Speeds(stall, ground, air, float(least), v2, vr)
+    v2_min = float(np.fmax(V2_OVER_VSR * stall, V2_OVER_VMCA * control.vmca))
+    v2 = max(manual.speed("V2", case.mass), v2_min)
+    vr_min = float(np.fmax(SLOWEST_DECISION * stall, VR_OVER_VMCA * control.vmca))
+    vr = max(v2 - GAINED, vr_min) if case.vr is None else case.vr
+    return Speeds(stall, *control, v2_min, v2, vr_min, vr)
 
 
 def vmcg(case: TakeOff, manual: FlightManual) -> float:
@@ -59,17 +95,24 @@ def vmcg(case: TakeOff, manual: FlightManual) -> float:
     line by 30 ft until it is parallel to it again. The rudder is the pilot's.
     """
 
+    @cache
     def beyond(vef: float) -> float:
         return _deviation(vef, case, manual) - DEVIATION
 
-    low = SLOWEST
-    if beyond(low) <= 0.0:
-        return low
+    low = START
+    while beyond(low) <= 0.0:
+        low -= UPWARDS
+        if low < SLOWEST:
+            return SLOWEST
     # Upwards: a light aircraft, nearly carried by its wings, drifts again as much when it is faster.
     while beyond(low + UPWARDS) > 0.0:
         low += UPWARDS
         if low > FASTEST:
-            return FASTEST
+            raise FlightError(
+                f"an outer engine failing at {FASTEST:.0f} m/s still takes it off the line by more than 30 ft",
+                time=0.0,
+                phase="VMCG",
+            )
     return float(brentq(beyond, low, low + UPWARDS, xtol=TOLERANCE))
 
 
@@ -97,7 +140,7 @@ def vmca(case: TakeOff, manual: FlightManual) -> float:
 
     Flown: the outer engine fails in the take-off; once safely up the aircraft is banked towards the live engines with
     full rudder and slowed down by pitch at take-off power. Faster than VMCA it turns towards the live engines, slower
-    towards the failed one. NaN when it stalls before.
+    towards the failed one. NaN when it stalls before, or gets no slower. Raises FlightError when that flight fails.
     """
     vr = 1.2 * manual.stall_speed(case.mass, case.flaps)
     climbing = replace(case, vr=vr, crosswind=0.0)
@@ -108,13 +151,17 @@ def vmca(case: TakeOff, manual: FlightManual) -> float:
         if pilot.control.owners["rudder"] != "DIRECT" or state.height < HIGH:
             return False
         seen.append((state.time, state.cas, wrap(state.heading - case.heading)))
-        return bool(state.stall_warning) or (state.time > seen[0][0] + STEADY and _turn(seen) < 0.0)
+        if state.time < seen[0][0] + STEADY:
+            return False
+        return bool(state.stall_warning) or _turn(seen) < 0.0 or slowest()
 
-    try:
-        fly(pilot, plant, time_limit=TIME_LIMIT, until=over)
-    except FlightError:
-        return nan
-    return nan if plant.state().stall_warning else seen[-1][1]
+    def slowest() -> bool:
+        """No slower than some seconds ago: incidence is protected."""
+        before = next(one for one in reversed(seen) if one[0] <= seen[-1][0] - NO_SLOWER)
+        return seen[-1][1] > before[1] - 0.01 * NO_SLOWER
+
+    fly(pilot, plant, time_limit=TIME_LIMIT, until=over)
+    return nan if plant.state().stall_warning or _turn(seen) >= 0.0 else seen[-1][1]
 
 
 def _turn(seen: Sequence[tuple[float, float, float]]) -> float:

@@ -19,6 +19,7 @@ PITCH_RATE = (
     3.0 * DEG
 )  # rad/s, as transport aircraft are rotated; the manual's gain serves every change of attitude
 FREE = 1e4
+SLOWING = 240.0  # s: a heavy aircraft loses its speed by pitch in a minute and a half
 SETTLE = (
     "3 s"  # on the brakes until the engines give their take-off thrust, from harness.plant.preset.lined_up
 )
@@ -69,6 +70,8 @@ def fitted(manual: FlightManual, case: TakeOff, event: Happening) -> FlightManua
     phases["T/O.transition"] = _transition(phases["T/O.transition"], event)
     phases["RTO"] = _rejected(phases["RTO"], event)
     gains = {**manual.gains, "pitch-rate": PITCH_RATE}
+    if event.slow_down:
+        gains["time-limit T/O.transition"] = SLOWING
     if not event.steering:  # the pilot believes that a small command turns the wheel far
         gains |= {name: angle * FREE for name, angle in gains.items() if name.startswith("steering-angle")}
     return replace(manual, phases=phases, gains=gains)

@@ -5,8 +5,10 @@ from typing import Any
 
 from harness.takeoff.card import Card
 from harness.takeoff.field import Field
-from harness.takeoff.runway import Site
+from harness.takeoff.greatest import Greatest
+from harness.takeoff.runway import FREEZING, Site
 from harness.units import KT
+from harness.world.atmosphere import temperature
 
 
 def _known(value: object) -> object:
@@ -43,8 +45,21 @@ def field_text(row: dict[str, Any]) -> str:
             f"  accelerate-stop {row['accelerate_stop']:.0f} m (with reverse {row['accelerate_stop_reverse']:.0f} m)",
             f"  engine failed: to the screen {row['accelerate_go_oei']:.0f} m, stop {row['accelerate_stop_oei']:.0f} m",
             f"  engine failed: first segment {row['gradient_first']:.1%}, second {row['gradient_second']:.1%}",
+            *told(row),
         )
     )
+
+
+def told(row: dict[str, Any]) -> list[str]:
+    """What there is to say about the speeds and the distances."""
+    lines = [f"  VMCA -: {row['vmca_told']}"] if row["vmca_told"] else []
+    if row["dry_v1"] is not None:
+        lines.append(
+            f"  never below those of the dry runway, V1 {row['dry_v1'] / KT:.1f} kt: "
+            f"take-off distance {row['dry_take_off_distance']:.0f} m, "
+            f"accelerate-stop {row['dry_accelerate_stop']:.0f} m"
+        )
+    return lines
 
 
 SPEEDS = (
@@ -58,8 +73,8 @@ SPEEDS = (
 )
 
 
-def card_data(card: Card, site: Site) -> dict[str, Any]:
-    """The card as JSON."""
+def card_data(card: Card, site: Site, greatest: Greatest | None = None) -> dict[str, Any]:
+    """The card as JSON; without a search the greatest mass and what sets it are null."""
     case = card.case
     return {
         "possible": card.met,
@@ -75,13 +90,14 @@ def card_data(card: Card, site: Site) -> dict[str, Any]:
         "mass_kg": case.mass,
         "flaps": case.flaps,
         "isa_deviation_K": case.isa_deviation,
+        "temperature_degC": temperature(case.elevation) + case.isa_deviation - FREEZING,
         "qnh_Pa": case.qnh,
         "headwind_counted_mps": case.headwind,
         "crosswind_mps": case.crosswind,
         "needs": [{**need._asdict(), "margin": need.margin, "met": need.met} for need in card.needs],
         "limiting": {"name": card.limiting.name, "kind": card.limiting.kind, "margin": card.limiting.margin},
-        "greatest_mass_kg": _known(card.greatest_mass),
-        "greatest_mass_set_by": card.greatest_mass_set_by,
+        "greatest_mass_kg": None if greatest is None else _known(greatest.mass),
+        "greatest_mass_set_by": None if greatest is None else greatest.set_by,
         **field_data(card.field),
     }
 
@@ -100,13 +116,15 @@ def card_text(data: dict[str, Any]) -> str:
         f"{runway['name']}, {data['mass_kg'] / 1e3:.1f} t: take-off {verdict}",
         f"  TORA {runway['tora_m']:.0f} m, TODA {runway['toda_m']:.0f} m, ASDA {runway['asda_m']:.0f} m",
         f"  {runway['surface']}, elevation {runway['elevation_m']:.0f} m, slope {runway['slope']:+.2%}",
-        f"  ISA {data['isa_deviation_K']:+.1f} K, QNH {data['qnh_Pa'] / 100:.1f} hPa",
+        f"  {data['temperature_degC']:.1f} degC (ISA {data['isa_deviation_K']:+.1f} K)",
+        f"  QNH {data['qnh_Pa'] / 100:.1f} hPa",
         f"  headwind counted {data['headwind_counted_mps'] / KT:+.1f} kt",
         "  kt CAS: "
         + "  ".join(
             f"{title} {'-' if data[name] is None else f'{data[name] / KT:.0f}'}" for title, name in SPEEDS
         )
         + f"   V1 set by {data['v1_set_by']}",
+        *told(data),
         f"  {'':26}{'required':>12}{'available':>12}{'margin':>9}",
     ]
     lines += [

@@ -1,31 +1,49 @@
 """Speeds, field lengths and the card: what CS-25 says must hold, on flights."""
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
+import numpy as np
 import pytest
 
+from harness.flight import fly
+from harness.log import Reporter
+from harness.manual import read_manual
+from harness.plant.jsbsim_plant import JSBSimPlant
+from harness.state import Commands, State
 from harness.takeoff.card import card
 from harness.takeoff.case import Happening, TakeOff
 from harness.takeoff.charts import early_rotation, sensitivities
-from harness.takeoff.field import AT_V1, FieldFlights, Runway
-from harness.takeoff.flight import CS25_SCREEN, fly_take_off
+from harness.takeoff.climb import CLIMB_HEIGHT, CLIMB_OVER, climbs, gradient
+from harness.takeoff.field import field_of
+from harness.takeoff.field_flights import AT_V1, FieldFlights, Runway
+from harness.takeoff.flight import CS25_SCREEN, fly_take_off, prepared
+from harness.takeoff.greatest import MASS_TOLERANCE, greatest_mass
 from harness.takeoff.page import page
 from harness.takeoff.runway import deviation, from_database, on_site
+from harness.takeoff.speeds import ControlSpeeds, control_speeds, vmcg
 from harness.takeoff.text import card_data, card_text
+from harness.units import G0, LB
 
+PUSHING = ("prop", "aero", "external")  # external: the jets of the engines
 HEAVY = TakeOff(124e3, None, pilot_rate=120)
 
 
 @pytest.fixture(scope="module")
-def flights() -> FieldFlights:
-    return FieldFlights(HEAVY)
+def control() -> ControlSpeeds:
+    return control_speeds(HEAVY, read_manual("gta"), 2)
+
+
+@pytest.fixture(scope="module")
+def flights(control) -> FieldFlights:
+    return FieldFlights(HEAVY, control=control, workers=2)
 
 
 def test_the_pilot_continues_and_rejects(flights):
     """An engine really fails, and both ways out of it are flown to their end."""
     vr = flights.speeds.vr
-    go, stop = flights.go(vr - 4.0), flights.stop(vr - 4.0, failure=True, reverse=False)
+    go = flights.fly(flights.going(vr - 4.0))
+    stop = flights.fly(flights.stopping(vr - 4.0, failure=True))
     assert go.when("failure", "engine 1") < go.liftoff < go.at_height(CS25_SCREEN)
     assert stop.ground_speed[-1] < 1.0  # the step before it stands
     assert abs(stop.across).max() < 10.0
@@ -34,7 +52,7 @@ def test_the_pilot_continues_and_rejects(flights):
 
 def test_first_action_is_at_v1_a_second_after_the_failure(flights):
     v1 = flights.speeds.vr - 4.0
-    stop = flights.stop(v1, failure=True, reverse=False)
+    stop = flights.fly(flights.stopping(v1, failure=True))
     decided, failed = stop.when("phase", "RTO"), stop.when("failure", "engine 1")
     assert v1 <= stop.at(decided, "cas") < v1 + 0.05
     assert 1.0 <= stop.at(decided, "time") - stop.at(failed, "time") < 1.4
@@ -61,7 +79,7 @@ def test_balanced_field():
         "hotter": replace(HEAVY, isa_deviation=25.0),
         "higher": replace(HEAVY, elevation=1500.0),
     }.items():
-        fields[name] = field = FieldFlights(case).field()
+        fields[name] = field = field_of(case, workers=2)
         assert field.v1_set_by == "balance"
         assert field.accelerate_stop == pytest.approx(field.accelerate_go_oei, abs=1.0)
         assert field.speeds.vmcg < field.v1 <= field.speeds.vr <= field.speeds.v2
@@ -83,12 +101,95 @@ def test_a_wet_stop_is_longer(flights):
 
 
 @pytest.mark.slow
-def test_card():
+def test_wet_rules(control):
+    """CS 25.109(b), 25.113(b), (c)(2): distances of a wet runway and V1 are its own, with the dry ones as a floor."""
+    wet, dry = (
+        field_of(replace(HEAVY, surface=surface), control=control, workers=2) for surface in ("wet", "dry")
+    )
+    assert wet.accelerate_stop_oei == pytest.approx(wet.accelerate_go_oei, abs=1.0), "balanced over 15 ft"
+    assert wet.v1 < dry.v1
+    assert wet.accelerate_stop == max(wet.accelerate_stop_oei, wet.accelerate_stop_aeo, dry.accelerate_stop)
+    assert wet.take_off_distance == max(wet.accelerate_go_oei, dry.take_off_distance)
+    assert wet.take_off_run == max(wet.accelerate_go_oei, wet.take_off_run_aeo)
+    assert (wet.dry_v1, wet.dry_take_off_distance) == (dry.v1, dry.take_off_distance)
+
+
+@pytest.mark.slow
+def test_minimum_control_speeds_are_those_of_the_lightest(control):
+    """CS 25.149: VMC at most 1.13 VSR of the greatest mass; VR, V2 keep away; a heavy aircraft has less VMCG."""
+    manual = read_manual("gta")
+    assert control.vmca < 1.13 * manual.stall_speed(manual.limits["maximum-take-off-mass"], "take-off")
+    light = FieldFlights(TakeOff(90e3, None, pilot_rate=120), manual, control, 2)
+    assert light.speeds.vr >= 1.05 * control.vmca
+    assert light.speeds.v2 >= 1.10 * control.vmca
+    assert vmcg(replace(HEAVY, pilot_rate=24), manual) < control.vmcg
+
+
+def test_where_there_is_no_vmca_it_says_so(monkeypatch):
+    """As the heavy ones do: were none lighter, there would be no VMCA."""
+    monkeypatch.setattr("harness.takeoff.speeds.lightest", lambda manual: 124e3)
+    speeds = control_speeds(HEAVY, read_manual("gta"))
+    assert np.isnan(speeds.vmca)
+    assert "limits nothing" in speeds.vmca_told
+
+
+@dataclass
+class Excess:
+    """Thrust less drag over the weight, at each step of the pilot, from the forces on the aircraft."""
+
+    plant: JSBSimPlant
+    rows: list[tuple[float, float]] = field(default_factory=list)
+
+    def see(self, state: State, commands: Commands, pilot: Reporter) -> None:
+        if state.height < CLIMB_HEIGHT / 2:
+            return
+        fdm = self.plant.fdm
+        forces = np.array([sum(fdm[f"forces/fb{axis}-{part}-lbs"] for part in PUSHING) for axis in "xyz"])
+        air = np.array([fdm[f"velocities/{axis}-aero-fps"] for axis in "uvw"])
+        along = float(forces @ air / np.linalg.norm(air)) * LB * G0
+        self.rows.append((state.time, along / (state.mass * G0)))
+
+    def note(self, event: object) -> None:
+        pass
+
+
+@pytest.mark.parametrize("segment", [0, 1])
+def test_gradient_is_the_excess_thrust_over_the_weight(flights, segment):
+    """CS 25.121(a) at VLOF, gear down, (b) at V2, gear up: gamma = (T - D) / W with the forces of the same flight."""
+    happening, height = climbs(flights, flights.speeds.vr - 4.0)[segment]
+    flown = flights.fly((happening, height))
+    go = flights.fly(flights.going(flights.speeds.vr - 4.0))
+    expected = (go.at(go.liftoff, "cas"), flights.speeds.v2)[segment]
+    assert flown.cas[-1] == pytest.approx(expected, abs=0.5)
+    pilot, plant, track = prepared(flights.case, happening, flights.manual)
+    excess = Excess(plant)
+    fly(pilot, plant, observers=(track, excess), until=lambda state: state.height > CLIMB_HEIGHT)
+    time, share = np.array(excess.rows).T
+    mean = share[time >= time[-1] - CLIMB_OVER].mean()
+    assert gradient(flown) == pytest.approx(np.tan(np.arcsin(mean)), abs=0.001)
+
+
+@pytest.mark.slow
+def test_greatest_mass_is_just_inside(control):
+    """The mass found is possible, the mass a tolerance heavier is not; found again from another mass."""
+    manual, runway = read_manual("gta"), Runway(1500.0, 1500.0, 1500.0)
+    case = replace(HEAVY, mass=110e3)
+    found = greatest_mass(card(case, runway, manual, control, workers=2), manual, 2)
+    assert found.set_by == "field"
+    fresh = [
+        card(replace(case, mass=found.mass + more), runway, manual, control, workers=2)
+        for more in (-MASS_TOLERANCE / 2, 1.5 * MASS_TOLERANCE)
+    ]
+    assert [one.met for one in fresh] == [True, False]
+
+
+@pytest.mark.slow
+def test_card(control):
     site = from_database("EDDK/13R")
     case = on_site(replace(HEAVY, mass=100e3), site)
-    plenty = card(case, Runway(3000.0, 3000.0, 3000.0), search=False)
+    plenty = card(case, Runway(3000.0, 3000.0, 3000.0), control=control, workers=2)
     assert plenty.met
-    short = card(case, Runway(1000.0, 1000.0, 1000.0), search=False)
+    short = card(case, Runway(1000.0, 1000.0, 1000.0), control=control, workers=2)
     assert not short.met
     assert short.limiting.kind == "field"
     data = card_data(short, site)
