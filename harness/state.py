@@ -1,7 +1,8 @@
 """What crosses between pilot and plant: `State` one way, `Commands` the other. SI and radians throughout."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
+from functools import partial
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -118,13 +119,13 @@ class Commands(NamedTuple):
     rudder: float = 0.0  # pedals, -1..1, positive: nose right
     steer: float = 0.0  # nose wheel, -1..1, positive: nose right
     brake: float = 1.0  # both sides
+    coordinate: float = 0.0  # 1: the aircraft keeps sideslip at zero; 0: pedals reach the rudder
     vertical: float = TO_ATTITUDE
     pitch: float = 0.0  # the attitude to go to, rad
     pitch_hold: float = 0.0
     elevator: float = 0.0
     bank_hold: float = 0.0
     aileron: float = 0.0
-    coordinate: float = 0.0  # 1: the aircraft keeps sideslip at zero; 0: pedals reach the rudder
     flap: float = 0.0
     gear: float = 1.0
     speedbrake: float = 0.0
@@ -133,3 +134,7 @@ class Commands(NamedTuple):
     ramp: float = 0.0  # 0 closed .. 1 open
     release: float = 0.0  # number of the load to go, in the order of `Mission.released`
     shut_down: float = 0.0  # engines whose fuel is cut: 1 for engine 1, 2, 4, 8 for the others, summed
+
+
+new_commands: Callable[[Iterable[float]], Commands] = partial(tuple.__new__, Commands)
+"""From all the values in order, without the keywords and defaults, which cost more than the rest."""

@@ -13,7 +13,7 @@ from harness.pilot.modes.speed import SpeedMode
 from harness.pilot.modes.vertical import VerticalMode
 from harness.pilot.route import NavigationComputer
 from harness.plan_reader import parse_reference
-from harness.state import Commands, State
+from harness.state import Commands, State, new_commands
 from harness.units import parse
 from harness.vocabulary import CONTROLS, INNER_MODES
 from harness.world.local import LocalFrame
@@ -82,11 +82,13 @@ class ControlSystem:
         lag = gains["neuromuscular-lag"]
         self._limbs = [LowPass(lag) for _ in range(4)] if lag else []
         self._bank = self._wheel = self._rudder = self._coordinate = 0.0
+        self._standing: tuple[float, ...] = ()  # commands that procedures change; empty when they have
 
     # What procedures do.
 
     def set(self, name: str, to: str) -> None:
         """Put a setting (see `vocabulary.SETTINGS`) to a value."""
+        self._standing = ()
         if name == "thrust":
             lever = self.manual.thrust[to]
             self.speed.hand = lever
@@ -106,6 +108,7 @@ class ControlSystem:
 
     def select(self, action: Mapping[str, str], state: State) -> None:
         """Select a sub-mode; `action` holds mode, to and the arguments of `vocabulary.MODES`."""
+        self._standing = ()
         select = {
             "CTRL": self._select_owner,
             "SPD": self._select_speed,
@@ -231,24 +234,22 @@ class ControlSystem:
 
     def command(self) -> Commands:
         """All commands."""
-        settings, owners, vertical = self._settings, self.owners, self.vertical
         lever, rudder, wheel, brake = self._by_hand()
         if self._limbs:
             lever, rudder, wheel, brake = (quantised(limb.value) for limb in self._limbs)
-        return Commands(
-            lever,
-            vertical.wanted,
-            self._bank,
-            rudder,
-            wheel,
-            brake,
+        self._standing = self._standing or self._stand()
+        moving = (lever, self.vertical.wanted, self._bank, rudder, wheel, brake, self._coordinate)
+        return new_commands(moving + self._standing)
+
+    def _stand(self) -> tuple[float, ...]:
+        settings, owners, vertical = self._settings, self.owners, self.vertical
+        return (
             vertical.law,
             vertical.attitude,
             float(owners["elevator"] == "CONTROLLER"),
             settings.elevator,
             float(owners["aileron"] == "CONTROLLER"),
             settings.aileron,
-            self._coordinate,
             settings.flap,
             settings.gear,
             settings.speedbrake,

@@ -150,6 +150,8 @@ class Pilot:
         """The step at which the outer loops turn, or something before it is waited for."""
         if self._alert:
             return self._steps + 1
+        if not self._moments:
+            return self._turn
         due = [ceil(moment / self.step - SAME_MOMENT) for moment in self._moments]
         return min([self._turn, *(max(step, self._steps + 1) for step in due if step >= self._steps)])
 

@@ -31,7 +31,9 @@ INTEGRATORS = {
     "simulation/integrator/position/rotational": 7.0,
     "simulation/integrator/position/translational": 4.0,
 }
-TERRAIN_PERIOD = 24  # pilot steps between two looks at the terrain; below LOW its elevation stays what it was
+TERRAIN_PERIOD = (
+    240  # pilot steps between two looks at the terrain; below LOW its elevation stays what it was
+)
 MOST_CONTACTS = 32  # gear units and structure contacts an aircraft may have
 STANDING_HEIGHT = 4.0  # m, first guess of the CG above the ground; the ground trim finds the true one
 GROUND_TRIM = 2.0  # JSBSim's trim mode for an aircraft on its wheels
@@ -298,7 +300,7 @@ class JSBSimPlant:
         return write
 
 
-_STANDING = Commands._fields.index("pitch_hold")  # from here on commands change by procedures only
+_STANDING = Commands._fields.index("vertical")  # from here on commands change by procedures only
 _EVERY = range(len(Commands._fields))
 _MOVING = range(_STANDING)
 
