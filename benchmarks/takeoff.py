@@ -61,7 +61,7 @@ def main() -> None:
             alone.append(process_time() - begin)
             counts.append((flown.time[-1] + 3.0) * 120)
     before = _children()
-    fly_all(fly_take_off, cases * REPEATS, 2)
+    fly_all(fly_take_off, cases * REPEATS, 2, cases[0])
     together = (_children() - before) / (len(cases) * REPEATS)
     wall, cpu = min(command() for _ in range(REPEATS))
     each, one = median(alone), median(frames)

@@ -41,5 +41,9 @@ def probe(subject, overrides):
     read_mission(subject.file, overrides, text=subject.text)
 
 
+def make_ready():
+    pass
+
+
 def outputs():
     return frozenset({"double", "word", "noise", "nested.list[a.b].x"})

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from harness.errors import InputError
 from harness.loading.aircraft import read_stowage
-from harness.plant.jsbsim_plant import GROUND_TRIM, INTEGRATORS, STANDING_HEIGHT, load
+from harness.plant.hangar import load
+from harness.plant.jsbsim_plant import GROUND_TRIM, INTEGRATORS, STANDING_HEIGHT
 from harness.plant.properties import STATE, THROTTLES, Binding
 from harness.state import FIELDS
 from harness.units import FT, LB

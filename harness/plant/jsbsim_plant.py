@@ -1,7 +1,5 @@
 """A JSBSim aircraft as a plant: takes Commands, flies some pilot steps of frames, hands back a State."""
 
-import ctypes
-import re
 from collections.abc import Callable, Mapping, Sequence
 from itertools import repeat, starmap
 from math import ceil, degrees, nan
@@ -12,13 +10,12 @@ from typing import NamedTuple
 import jsbsim
 
 from harness.errors import InputError, NumericalError
-from harness.lint.aircraft import check
 from harness.loading.balance import Item, combined, four_points
 from harness.log import Inputs
 from harness.log.inputs import AT_START, BEFORE, Write
+from harness.plant.hangar import fresh, refused
 from harness.plant.impact import IMPACT_SINK, impact
 from harness.plant.instruments import Instruments
-from harness.plant.messages import Messages
 from harness.plant.properties import COMMANDS, PSF, SENSED, STATE
 from harness.state import LOW, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, rest
 from harness.units import FT, LB
@@ -105,7 +102,7 @@ class JSBSimPlant:
         self._wrote = self._inputs.writes.append
         self._steps = BEFORE
         self._aircraft = aircraft
-        self._fdm = load(root, aircraft, rate)
+        self._fdm = fresh(root, aircraft, rate)
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air)
         for name, value in (preset or {}).items():
@@ -235,7 +232,7 @@ class JSBSimPlant:
         try:
             ready = self._fdm.run_ic()
         except jsbsim.BaseError as error:
-            raise _refused(self._fdm, self._aircraft, str(error)) from error
+            raise refused(self._fdm, self._aircraft, str(error)) from error
         if not ready:
             raise InputError("JSBSim could not set the initial conditions")
         self._steps = AT_START
@@ -308,32 +305,3 @@ _MOVING = range(_STANDING)
 def _fuel_lever(engine: int, run: Callable[[float], object]) -> Callable[[float], object]:
     """What opens or closes the fuel of one engine, from the sum that tells which are shut down."""
     return lambda shut_down: run(float(not int(shut_down) >> engine & 1))
-
-
-def load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
-    """A simulator with this aircraft, `rate` frames a second. Raises InputError when JSBSim refuses it."""
-    check(root, aircraft)
-    messages = Messages()
-    jsbsim.set_logger(messages)
-    fdm = jsbsim.FGFDMExec(str(root))
-    fdm.set_debug_level(0)
-    fdm.set_dt(1.0 / rate)  # before the model: filters and actuators keep the step they were loaded with
-    try:
-        loaded = fdm.load_model(aircraft)
-    except jsbsim.BaseError as error:
-        raise _refused(fdm, aircraft, str(error)) from error
-    if not loaded:
-        raise _refused(fdm, aircraft, "\n    ".join(messages.serious))
-    fdm.disable_output()
-    return fdm
-
-
-def _refused(fdm: jsbsim.FGFDMExec, aircraft: str, said: str) -> InputError:
-    """What JSBSim said, as file, line and message where it gives them."""
-    # Kept for ever: taking a half-loaded simulator down reads properties it never had, and aborts the process.
-    ctypes.pythonapi.Py_IncRef(ctypes.py_object(fdm))
-    what = f"JSBSim refuses the aircraft {aircraft}"
-    found = re.search(r"In file (.+?):? line (\d+)\s*(.*)", said, re.DOTALL)
-    if found:
-        return InputError(f"{what}: {' '.join(found[3].split())}", file=found[1], line=int(found[2]))
-    return InputError(f"{what}: {said.strip()}", remedy="systems/ shows how the others provide it")

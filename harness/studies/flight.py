@@ -10,6 +10,7 @@ from harness.manual import FlightManual, read_manual
 from harness.mission.check import check
 from harness.mission.overrides import Override
 from harness.mission.reader import read_mission
+from harness.plant.hangar import park_again
 from harness.session import Session
 from harness.studies.model import Subject
 from harness.vocabulary import PHASES
@@ -43,6 +44,11 @@ def probe(subject: Subject, overrides: Sequence[Override]) -> None:
         from harness.flight import prepare
 
         prepare(mission, read_manual_once(mission.aircraft), rate=120)
+
+
+def make_ready() -> None:
+    """Have the aircraft loaded for the next case."""
+    park_again()
 
 
 def outputs() -> frozenset[str]:

@@ -19,7 +19,7 @@ from typing import Any
 from harness.errors import InputError
 
 START_LIMIT = 120.0  # s until a worker must be ready; half a second on a quiet computer
-MOST_CASES = 1000  # of one worker: what JSBSim leaks in a case (17 kB) stays small
+MOST_CASES = 1000  # of one worker: where it cannot fork, what JSBSim leaks in a case (17 kB) stays small
 LAST_LIMIT = 10.0  # s that a worker may take to die once it is silent
 TRIES = 5  # to find a worker that lives long enough to begin
 DETAIL = 2000  # characters of a dead worker's last words
@@ -79,7 +79,9 @@ class _Worker:
         self._process.wait()
         for stream in (self._process.stdin, self._process.stdout, self._words):
             if stream:
-                with contextlib.suppress(OSError):
+                with contextlib.suppress(
+                    OSError, ValueError
+                ):  # of a dead process; closed by two threads at once
                     stream.close()
 
     def fate(self) -> tuple[str, str]:

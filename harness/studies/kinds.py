@@ -5,6 +5,7 @@ A kind's module has
 * `run_case(subject, overrides, seed)`: runs one case and returns what came out, a dictionary of numbers and words
   (nested ones are reached by dotted paths). Raises HarnessError when it could not be completed;
 * `probe(subject, overrides)`: raises InputError for an override that leads nowhere or has the wrong unit;
+* `make_ready()`: loads, after the first case of a process, what every other begins with;
 * `outputs()`: the paths of the numbers and words that `run_case` may return, but those that differ from one computer to
   the next.
 """
@@ -28,6 +29,9 @@ class Kind(Protocol):
 
     def probe(self, subject: Subject, overrides: Sequence[Override]) -> None:
         """Look at what the overrides lead to."""
+
+    def make_ready(self) -> None:
+        """Load what every case begins with."""
 
     def outputs(self) -> frozenset[str]:
         """The paths of what comes out."""

@@ -12,6 +12,7 @@ from harness.manual import FlightManual, read_manual
 from harness.mission.overrides import Override
 from harness.mission.reader import read_mission
 from harness.navigation.database import load
+from harness.plant.hangar import park_again
 from harness.studies.model import Subject
 from harness.takeoff.case import FIXED_VR, TakeOff
 from harness.takeoff.flight import fly_take_off
@@ -32,6 +33,11 @@ def run_case(subject: Subject, overrides: Sequence[Override], seed: int) -> Mapp
 def probe(subject: Subject, overrides: Sequence[Override]) -> None:
     """Read the mission with the overrides. Raises InputError for those that lead nowhere or lack their unit."""
     _case(subject, overrides)
+
+
+def make_ready() -> None:
+    """Have the aircraft loaded for the next case."""
+    park_again()
 
 
 def outputs() -> frozenset[str]:

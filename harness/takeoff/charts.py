@@ -81,7 +81,7 @@ def sensitivities(case: TakeOff, workers: int = 1) -> list[Sensitivity]:
         (*one.change(case, manual, step), step)
         for one, step in zip((one for one in QUANTITIES for _ in range(4)), steps, strict=True)
     ]
-    here, *flown = fly_all(_distance, [(case, manual, 0.0), *changed], workers)
+    here, *flown = fly_all(_distance, [(case, manual, 0.0), *changed], workers, case)
     found = []
     for i, one in enumerate(QUANTITIES):
         up, down, half_up, half_down = flown[4 * i : 4 * i + 4]

@@ -89,7 +89,7 @@ def run_carpet(chosen: argparse.Namespace) -> int:
             remedy="fewer here; harness study for more",
         )
     check_all(cases)
-    rows = fly_all(case_row, cases, workers)
+    rows = fly_all(case_row, cases, workers, cases[0])
     if chosen.json:
         print_json(rows)
         return 0

@@ -90,7 +90,7 @@ def _fly(
     from harness.takeoff.flight import fly_take_off
 
     check_all(cases)
-    return fly_all(fly_take_off, cases, workers, meanwhile)
+    return fly_all(fly_take_off, cases, workers, cases[0], meanwhile)
 
 
 def _keep(cases: list["TakeOff"], workers: int, out: str) -> tuple[list["Flown"], list["Flown"], Path]:

@@ -85,7 +85,7 @@ def fields_of(cases: Sequence[TakeOff], workers: int = 1) -> list[Field]:
     manual = read_manual(cases[0].aircraft)
     control = control_speeds(cases[0], manual, workers)
     inner = 1 if len(cases) > 1 else workers
-    return fly_all(_field, [(case, manual, control, inner) for case in cases], workers)
+    return fly_all(_field, [(case, manual, control, inner) for case in cases], workers, cases[0])
 
 
 def _field(asked: tuple[TakeOff, FlightManual, ControlSpeeds, int]) -> Field:

@@ -116,7 +116,7 @@ class FieldFlights:
         """The first of them; those not flown yet are flown together."""
         missing = [one for one in dict.fromkeys(asked) if one not in self._flown]
         cases = [(self.case, happening, self.manual, height) for happening, height in missing]
-        self._flown.update(zip(missing, fly_all(_fly, cases, self._workers), strict=True))
+        self._flown.update(zip(missing, fly_all(_fly, cases, self._workers, self.case), strict=True))
         return self._flown[asked[0]]
 
     @property

@@ -8,6 +8,10 @@ from multiprocessing import get_context
 from typing import TypeVar
 
 from harness.errors import HarnessError
+from harness.fork import forked
+from harness.plant.hangar import park
+from harness.resources import root
+from harness.takeoff.case import TakeOff
 
 Case = TypeVar("Case")
 Result = TypeVar("Result")
@@ -22,27 +26,32 @@ def fly_all(
     fly: Callable[[Case], Result],
     cases: Sequence[Case],
     workers: int,
+    like: TakeOff,
     meanwhile: Iterable[Callable[[], object]] = (),
 ) -> list[Result]:
     """`fly` of each case, on `workers` processes; `meanwhile` is done here while they fly.
 
-    Raises what `fly` raises, and HarnessError when a process died.
+    Each is flown in a fork of its own, with an aircraft that was loaded before: that of `like`. Raises what `fly`
+    raises, and HarnessError when a process died.
     """
+    park(root(), like.aircraft, like.rate)
     workers = min(workers, len(cases))
     if workers <= 1:
         for act in meanwhile:
             act()
-        return [fly(case) for case in cases]
+        return [_apart(fly, case) for case in cases]
     # Forked where the system can: the workers have everything imported already, which is most of a short study.
     with ProcessPoolExecutor(
         workers, mp_context=get_context("fork" if hasattr(os, "fork") else "spawn")
     ) as pool:
-        futures = [pool.submit(fly, case) for case in cases]
+        futures = [pool.submit(_apart, fly, case) for case in cases]
         for act in meanwhile:
             act()
         try:
             return [future.result() for future in futures]
         except BrokenProcessPool as error:
-            raise HarnessError(
-                "a process that flew take-offs has died; with --workers 1 its error is seen"
-            ) from error
+            raise HarnessError("a process that flew take-offs has died") from error
+
+
+def _apart(fly: Callable[[Case], Result], case: Case) -> Result:
+    return forked(lambda: fly(case))

@@ -74,7 +74,7 @@ def greatest_mass(flown: Card, manual: FlightManual, workers: int = 1) -> Greate
             )
             for mass in wanted
         ]
-        tried.update(zip(wanted, fly_all(_card, asked, workers), strict=True))
+        tried.update(zip(wanted, fly_all(_card, asked, workers, flown.case), strict=True))
         turn += 1
 
 

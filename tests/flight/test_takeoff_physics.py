@@ -113,3 +113,14 @@ def test_wind_acts_by_airspeed_alone():
         np.interp(cas, windy.cas, np.arange(len(windy.time))) for cas in (speed[roll][0], speed[roll][-1])
     ]
     assert windy.at(index[1], "along") - windy.at(index[0], "along") == pytest.approx(expected, rel=0.01)
+
+
+def test_wheels_that_roll_freely_need_not_be_stepped_in_every_frame():
+    case = TakeOff(96e3)
+    pilot, plant, track = prepared(case)
+    plant.fdm["gear/most-frames-per-step"] = 1
+    fly(pilot, plant, observers=(track,), until=lambda state: state.height > 15.0)
+    every = track.flown(case, 62.5)
+    flown = fly_take_off(case, height=12.0)
+    for index, other in ((flown.liftoff, every.liftoff), (flown.at_height(10.0), every.at_height(10.0))):
+        assert flown.at(index, "along") == pytest.approx(every.at(other, "along"), abs=0.5)
