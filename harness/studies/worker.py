@@ -88,7 +88,8 @@ def run(request: Mapping[str, Any]) -> dict[str, Any]:
         )
         outputs = [_plain(pick(found, path)) for path in request["outputs"]]
     except (FlightError, HarnessError) as error:
-        return {"status": "failed", "reason": " ".join(str(error).split()), "outputs": nothing, "detail": ""}
+        reason = "; ".join(" ".join(line.split()) for line in str(error).splitlines())
+        return {"status": "failed", "reason": reason, "outputs": nothing, "detail": ""}
     except LookupError as error:
         reason = str(error.args[0]) if error.args else repr(error)
         return {"status": "error", "reason": reason, "outputs": nothing, "detail": traceback.format_exc()}

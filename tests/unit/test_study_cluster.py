@@ -59,7 +59,10 @@ def test_a_scheduler_that_dies_stops_the_study_and_loses_nothing(one: Cluster, t
 
 
 @pytest.mark.parametrize("address", ["127.0.0.1:1", "nonsense://x:1"])
-def test_a_cluster_that_cannot_be_reached_is_told_at_once(address: str, tmp_path: Path) -> None:
+def test_a_cluster_that_cannot_be_reached_is_told_at_once(
+    address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("harness.studies.cluster.CONNECT_LIMIT", 1.0)
     begin_time = time.monotonic()
     with pytest.raises(InputError, match="the cluster cannot be reached") as caught:
         run(write(tmp_path, 6000), tmp_path / "out", cluster=address)
