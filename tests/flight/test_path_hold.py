@@ -105,6 +105,20 @@ def test_a_stick_taken_over_is_followed(flight: Flight, manual: FlightManual) ->
     assert flight.fdm["ap/pitch-target-rad"] == pytest.approx(flight.fdm["attitude/theta-rad"], abs=2e-3)
 
 
+def test_it_flies_by_the_sensors_when_they_are_on(flight: Flight) -> None:
+    """A vertical speed frozen while the aircraft climbs away is taken for the truth."""
+    flight.fdm["sensor/active"] = 1
+    flight.run(10.0)
+    along(flight, 0.0)
+    flight.fdm["failure/sensor-air-data"] = 1
+    flight.run(2 * TURN)
+    seen = flight.fdm["sensor/vertical-speed-fps"] / flight.fdm["sensor/tas-fps"]
+    flight.fdm["path/target-rad"] = radians(2)
+    flight.run(6.0)
+    assert flight.fdm["path/angle-rad"] == pytest.approx(seen, rel=1e-9)
+    assert climb(flight) - seen > radians(1)
+
+
 def test_a_number_that_is_none_ends_the_simulation(flight: Flight) -> None:
     flight.fdm["inertia/pointmass-weight-lbs[0]"] = float("nan")
     assert not all(flight.fdm.run() for _ in range(5))
