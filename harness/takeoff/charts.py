@@ -9,7 +9,7 @@ from harness.manual import FlightManual, read_manual
 from harness.takeoff.case import TakeOff
 from harness.takeoff.fleet import fly_all
 from harness.takeoff.flight import CS25_SCREEN, fly_take_off
-from harness.units import KT
+from harness.units import FT, KT, TONNE
 
 EARLY = 10 * KT  # AMC 25.107(e)(4): all engines, VR so much or 7 % too early, whichever is less ...
 EARLY_SHARE = 0.07
@@ -21,16 +21,21 @@ Change = Callable[[TakeOff, FlightManual, float], tuple[TakeOff, FlightManual]]
 
 
 class Quantity(NamedTuple):
-    """What is changed, its unit in SI, the step to each side, and how."""
+    """What is changed, its unit in SI, the step to each side, how, and the change people speak of."""
 
     name: str
     unit: str
     step: float
     change: Change
+    usual: float
+    told: str
 
 
 class Sensitivity(NamedTuple):
-    """d(distance)/d(quantity), SI, at the whole step and at half of it; `smooth` if the two agree."""
+    """d(distance)/d(quantity), SI, at the whole step and at half of it; `smooth` if the two agree.
+
+    `usual_share` is the share of the distance that `usual_change` is about, by the derivative.
+    """
 
     name: str
     unit: str
@@ -38,6 +43,8 @@ class Sensitivity(NamedTuple):
     derivative: float
     at_half_step: float
     smooth: bool
+    usual_change: str
+    usual_share: float
 
 
 def distance(case: TakeOff, manual: FlightManual) -> float:
@@ -53,6 +60,12 @@ def _field(name: str) -> Change:
     return change
 
 
+def _mass_with_vr(case: TakeOff, manual: FlightManual, by: float) -> tuple[TakeOff, FlightManual]:
+    """VR goes with the stall speed, as it is scheduled."""
+    assert case.vr is not None, "sensitivities() has put it in"
+    return replace(case, mass=case.mass + by, vr=case.vr * (1.0 + by / case.mass) ** 0.5), manual
+
+
 def _flap(case: TakeOff, manual: FlightManual, by: float) -> tuple[TakeOff, FlightManual]:
     flaps = tuple(
         one._replace(position=one.position + by) if one.name == case.flaps else one for one in manual.flaps
@@ -61,19 +74,20 @@ def _flap(case: TakeOff, manual: FlightManual, by: float) -> tuple[TakeOff, Flig
 
 
 QUANTITIES = (
-    Quantity("mass", "kg", 2000.0, _field("mass")),
-    Quantity("temperature", "K", 8.0, _field("isa_deviation")),
-    Quantity("elevation", "m", 300.0, _field("elevation")),
-    Quantity("headwind", "m/s", 2.0, _field("headwind")),
-    Quantity("slope", "1", 0.01, _field("slope")),
-    Quantity("flap", "1", 0.1, _flap),
-    Quantity("VR", "m/s", 1.0, _field("vr")),
-    Quantity("friction", "1", 0.5, _field("friction")),
+    Quantity("mass", "kg", 2000.0, _field("mass"), TONNE, "+1 t"),
+    Quantity("mass with VR", "kg", 2000.0, _mass_with_vr, TONNE, "+1 t"),
+    Quantity("temperature", "K", 8.0, _field("isa_deviation"), 10.0, "+10 K"),
+    Quantity("elevation", "m", 300.0, _field("elevation"), 1000 * FT, "+1000 ft"),
+    Quantity("headwind", "m/s", 2.0, _field("headwind"), 10 * KT, "+10 kt"),
+    Quantity("slope", "1", 0.01, _field("slope"), 0.01, "+1 %"),
+    Quantity("flap", "1", 0.1, _flap, 0.1, "+10 % of travel"),
+    Quantity("VR", "m/s", 1.0, _field("vr"), KT, "+1 kt"),
+    Quantity("friction", "1", 0.5, _field("friction"), 0.1, "+10 %"),
 )
 
 
 def sensitivities(case: TakeOff, workers: int = 1) -> list[Sensitivity]:
-    """Central differences of the distance to 35 ft by each of QUANTITIES; VR stays when the others change."""
+    """Central differences of the distance to 35 ft by each of QUANTITIES; VR stays but with `mass with VR`."""
     manual = read_manual(case.aircraft)
     case = replace(case, vr=case.rotation_speed(manual))
     steps = [one.step * share for one in QUANTITIES for share in (1.0, -1.0, 0.5, -0.5)]
@@ -88,7 +102,16 @@ def sensitivities(case: TakeOff, workers: int = 1) -> list[Sensitivity]:
         whole, half = (up - down) / (2.0 * one.step), (half_up - half_down) / one.step
         scale = max(abs(whole), LEAST * here / one.step)
         found.append(
-            Sensitivity(one.name, one.unit, one.step, whole, half, abs(whole - half) <= SMOOTH * scale)
+            Sensitivity(
+                one.name,
+                one.unit,
+                one.step,
+                whole,
+                half,
+                abs(whole - half) <= SMOOTH * scale,
+                one.told,
+                whole * one.usual / here,
+            )
         )
     return found
 

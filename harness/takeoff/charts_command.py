@@ -57,11 +57,15 @@ def run_sensitivities(chosen: argparse.Namespace) -> int:
         print_json({"sensitivities": [one._asdict() for one in found], "early_rotation": early})
         return 0
     print(
-        f"distance to 35 ft, all engines, {mass / 1e3:.1f} t: per unit, at the whole step and at half of it"
+        f"distance to 35 ft, all engines, {mass / 1e3:.1f} t: for the change people speak of; "
+        "per unit, at the whole step and at half of it"
     )
     for one in found:
         told = f"step {one.step:g}" + ("" if one.smooth else ", NOT SMOOTH")
-        print(f"  {one.name:12}{one.derivative:>12.5g} m per {one.unit:5}{one.at_half_step:>12.5g}   {told}")
+        print(
+            f"  {one.name:13}{one.usual_change:>15}{one.usual_share:>+8.1%}"
+            f"{one.derivative:>12.5g} m per {one.unit:5}{one.at_half_step:>12.5g}   {told}"
+        )
     print(
         f"  VR early by {early['vr_mps'] - early['early_vr_mps']:.1f} m/s: {early['longer']:+.1%} of the distance; "
         f"AMC 25.107(e)(4) wants at most +1 %: {'met' if early['met'] else 'NOT MET'}"

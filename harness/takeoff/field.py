@@ -65,11 +65,14 @@ def field_of(
     """
     manual = manual or read_manual(case.aircraft)
     control = control or control_speeds(case, manual, workers)
-    dry_flights = FieldFlights(replace(case, surface="dry"), manual, control, workers, guess)
+    dry_guess = guess and guess._replace(v1_over_vr=guess.dry_v1_over_vr)
+    dry_flights = FieldFlights(replace(case, surface="dry"), manual, control, workers, dry_guess)
     dry = _flown(dry_flights, runway, whole=guess is None)
     if case.surface == "dry":
         return dry
-    wet = _flown(FieldFlights(replace(case, vr=dry.speeds.vr), manual, control, workers, guess), runway)
+    wet_flights = FieldFlights(replace(case, vr=dry.speeds.vr), manual, control, workers, guess)
+    # Aloft at the same speeds the surface no longer matters.
+    wet = _flown(wet_flights, runway, climb=dry.gradients)
     return wet._replace(
         take_off_distance=max(wet.accelerate_go_oei, dry.take_off_distance),
         accelerate_stop=max(wet.accelerate_stop, dry.accelerate_stop),
@@ -93,11 +96,13 @@ def _field(asked: tuple[TakeOff, FlightManual, ControlSpeeds, int]) -> Field:
     return field_of(case, None, manual, control, workers=workers)
 
 
-def _flown(flights: FieldFlights, runway: Runway | None, *, whole: bool = True) -> Field:
+def _flown(
+    flights: FieldFlights, runway: Runway | None, *, whole: bool = True, climb: Gradients | None = None
+) -> Field:
     v1, set_by, balanced = flights.decision_speed(runway)
     stops = [flights.stopping(v1, failure=failure) for failure in (True, False)]
     reversing = [flights.stopping(v1, failure=True, reverse=True)] if whole else []
-    flights.fly(flights.going(v1), *stops, *reversing, *climbs(flights, v1))
+    flights.fly(flights.going(v1), *stops, *reversing, *(() if climb else climbs(flights, v1)))
     everyone, go = flights.all_engines, flights.fly(flights.going(v1))
     lift, distance = go.at(go.liftoff, "along"), flights.accelerate_go(v1)
     all_distance = everyone.at(everyone.at_height(CS25_SCREEN), "along")
@@ -125,7 +130,7 @@ def _flown(flights: FieldFlights, runway: Runway | None, *, whole: bool = True) 
         v1_balanced=balanced,
         balanced_stop=nan if isnan(balanced) else flights.longest_stop(balanced),
         balanced_go=nan if isnan(balanced) else flights.accelerate_go(balanced),
-        gradients=gradients(flights, v1),
+        gradients=climb or gradients(flights, v1),
         brake_energy=flights.brake_energy(v1),
         tyre_speed=_share(everyone, *TYRES),
         dry_v1=nan,

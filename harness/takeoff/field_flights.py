@@ -44,6 +44,7 @@ class Guess(NamedTuple):
 
     v2_less_vr: float
     v1_over_vr: float
+    dry_v1_over_vr: float  # on a wet runway that of the dry one, else the same
 
 
 class Decision(NamedTuple):

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import inf, nan
+from math import inf, isnan, nan
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +11,7 @@ from harness.errors import FlightError, InputErrors
 from harness.manual import FlightManual
 from harness.takeoff.card import Card, Need, card
 from harness.takeoff.case import TakeOff, check, lightest
+from harness.takeoff.field import Field
 from harness.takeoff.field_flights import Guess, Runway
 from harness.takeoff.fleet import fly_all
 from harness.takeoff.speeds import ControlSpeeds
@@ -168,4 +169,9 @@ def _start(tried: Tried, mass: float) -> Guess:
     return Guess(
         of(lambda one: known[one].speeds.v2 - known[one].speeds.vr),
         min(of(lambda one: known[one].v1 / known[one].speeds.vr), 1.0),
+        min(of(lambda one: _dry_v1(known[one]) / known[one].speeds.vr), 1.0),
     )
+
+
+def _dry_v1(field: Field) -> float:
+    return field.v1 if isnan(field.dry_v1) else field.dry_v1

@@ -210,7 +210,15 @@ def test_sensitivities():
     found = {one.name: one for one in sensitivities(HEAVY, 2)}
     assert all(one.smooth for one in found.values())
     longer = {name for name, one in found.items() if one.derivative > 0}
-    assert longer == {"mass", "temperature", "elevation", "slope", "VR", "friction"} | (longer & {"flap"})
+    always = {"mass", "mass with VR", "temperature", "elevation", "slope", "VR", "friction"}
+    assert longer == always | (longer & {"flap"})
+    # Rules of thumb for a distance to a screen: twice the mass, a tenth for 10 kt, and so on.
+    share = {name: one.usual_share for name, one in found.items()}
+    assert 1.7 <= share["mass with VR"] * HEAVY.mass / 1000.0 <= 2.6
+    assert 0.03 <= share["temperature"] <= 0.09
+    assert 0.02 <= share["elevation"] <= 0.08
+    assert -0.16 <= share["headwind"] <= -0.08
+    assert 0.01 <= share["slope"] <= 0.06
 
 
 def test_a_runway_of_the_database_and_its_day():
