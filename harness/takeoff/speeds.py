@@ -62,8 +62,17 @@ class Speeds(NamedTuple):
 
 
 def control_speeds(case: TakeOff, manual: FlightManual, workers: int = 1) -> ControlSpeeds:
-    """Fly for VMCG and VMCA of the day and runway of `case`. Raises FlightError."""
-    light = replace(case, mass=lightest(manual), vr=None, surface="dry", crosswind=0.0, pilot_rate=PILOT_RATE)
+    """Fly for VMCG and VMCA of the day of `case`, in still air on a level dry runway. Raises FlightError."""
+    light = replace(
+        case,
+        mass=lightest(manual),
+        vr=None,
+        surface="dry",
+        headwind=0.0,
+        crosswind=0.0,
+        slope=0.0,
+        pilot_rate=PILOT_RATE,
+    )
     ground, air = fly_all(_minimum, [(vmcg, light, manual), (vmca, light, manual)], workers, light)
     told = (
         ""
