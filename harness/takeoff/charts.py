@@ -14,8 +14,12 @@ from harness.units import FT, KT, TONNE
 EARLY = 10 * KT  # AMC 25.107(e)(4): all engines, VR so much or 7 % too early, whichever is less ...
 EARLY_SHARE = 0.07
 MOST_LONGER = 0.01  # ... must not lengthen the take-off distance by more than one per cent
-SMOOTH = 0.1  # the derivative at half the step may differ by so much of itself, or of `LEAST`
-LEAST = 0.002  # of the distance for the whole step: below it a derivative is as good as zero
+SMOOTH = (
+    0.1  # the derivative at half the step may differ by so much of itself, or by what `RESOLVED` makes of it
+)
+RESOLVED = (
+    1.0  # m: two distances, each told to half a metre by the steps of the pilot, may be apart by so much
+)
 
 Change = Callable[[TakeOff, FlightManual, float], tuple[TakeOff, FlightManual]]
 
@@ -100,7 +104,7 @@ def sensitivities(case: TakeOff, workers: int = 1) -> list[Sensitivity]:
     for i, one in enumerate(QUANTITIES):
         up, down, half_up, half_down = flown[4 * i : 4 * i + 4]
         whole, half = (up - down) / (2.0 * one.step), (half_up - half_down) / one.step
-        scale = max(abs(whole), LEAST * here / one.step)
+        allowed = max(SMOOTH * abs(whole), RESOLVED / one.step)
         found.append(
             Sensitivity(
                 one.name,
@@ -108,7 +112,7 @@ def sensitivities(case: TakeOff, workers: int = 1) -> list[Sensitivity]:
                 one.step,
                 whole,
                 half,
-                abs(whole - half) <= SMOOTH * scale,
+                abs(whole - half) <= allowed,
                 one.told,
                 whole * one.usual / here,
             )

@@ -18,6 +18,12 @@ HIGHEST = MANUAL.limits["maximum-take-off-mass"]
 PLENTY = Runway(9000.0, 9000.0, 9000.0)
 
 
+@pytest.fixture(autouse=True)
+def _here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every card in this process, where the tests can count them."""
+    monkeypatch.setattr(greatest, "fly_all", lambda fly, cases, *_: [fly(case) for case in cases])
+
+
 def a_card(
     mass: float, runway: Runway, *, brakes: float = 0.5, tyres: float = 0.5, climb: float = 0.2
 ) -> Card:
@@ -69,7 +75,7 @@ def test_greatest_mass_within_the_tolerance(runway, more, limit, start, monkeypa
     assert found.inside.met
     assert found.outside is not None
     assert not found.outside.met
-    assert len(flown) <= 9, "cards flown beside the first"
+    assert 1 <= len(flown) <= 9, "cards flown beside the first"
 
 
 def test_a_long_runway_takes_the_greatest_mass_there_is(monkeypatch):
