@@ -106,6 +106,11 @@ def _guesses(tried: Tried, bracket: tuple[float, float]) -> list[float]:
         if beyond and end not in tried:
             return [end]
     half = SPREAD * guess if len(tried) == 1 else 0.49 * MASS_TOLERANCE
+    # At an end that was flown: a tolerance from it, which ends the search there, and a few.
+    if below in tried and guess - half <= below and above - below > 3.0 * MASS_TOLERANCE:
+        return [below + 0.98 * MASS_TOLERANCE, below + 2.9 * MASS_TOLERANCE]
+    if above in tried and guess + half >= above and above - below > 3.0 * MASS_TOLERANCE:
+        return [above - 2.9 * MASS_TOLERANCE, above - 0.98 * MASS_TOLERANCE]
     least = 0.02 * (above - below)  # away from what was flown
     return [min(max(mass, below + least), above - least) for mass in (guess - half, guess + half)]
 
