@@ -59,7 +59,7 @@ def main() -> None:
             flown = fly_take_off(case)
             row(flown)
             alone.append(process_time() - begin)
-            counts.append((flown.time[-1] + 3.0) * 120)
+            counts.append((flown.time[-1] + 3.0) * case.rate)
     before = _children()
     fly_all(fly_take_off, cases * REPEATS, 2, cases[0])
     together = (_children() - before) / (len(cases) * REPEATS)

@@ -35,10 +35,16 @@ def add_json(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="print the result as JSON, and nothing else")
 
 
-def add_rate(command: argparse.ArgumentParser) -> None:
-    """The argument for the step of the simulation."""
+def add_rate(command: argparse.ArgumentParser, rates: tuple[int, ...] = RATES) -> None:
+    """The argument for the step of the simulation, one of `rates`, the first if it is not given."""
+    *others, last = map(str, rates)
     command.add_argument(
-        "--rate", metavar="HZ", type=int, choices=RATES, default=120, help="frames a second: 120, 240 or 480"
+        "--rate",
+        metavar="HZ",
+        type=int,
+        choices=rates,
+        default=rates[0],
+        help=f"frames a second: {', '.join(others)} or {last}",
     )
 
 

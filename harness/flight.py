@@ -19,7 +19,7 @@ from harness.state import Commands, State
 from harness.world import earth
 
 PILOT_RATE = 24  # pilot steps a second
-RATES = (120, 240, 480)  # frames a second
+RATES = (60, 120, 240, 480)  # frames a second
 TIME_LIMIT = 8 * 3600.0  # s: longer than the fuel of a transport aircraft of this class lasts at low level
 LINE_UP = 30.0  # m past the threshold, where a mission without a stand begins
 
@@ -101,15 +101,19 @@ def prepare(
     runway: Runway | None = None,
     preset: Mapping[str, float] | None = None,
     inputs: Inputs | None = None,
+    trimmed: bool = True,
 ) -> tuple[Pilot, JSBSimPlant]:
     """Make the pilot and the plant of a mission, ready for the first step.
 
     `pilot_rate` is pilot steps a second, a divisor of `rate`. `runway`, one that need not be in the database,
     replaces both of the mission's; `preset` are properties of the aircraft to put before the first frame
-    (harness.plant.preset). Raises InputError.
+    (harness.plant.preset). `trimmed` False is for the aircraft whose brakes are held anyway until it stands still: see
+    JSBSimPlant. Raises InputError.
     """
     if rate not in RATES:
-        raise InputError(f"{rate} frames a second are not possible", remedy="choose 120, 240 or 480")
+        raise InputError(f"{rate} frames a second are not possible", remedy=f"choose one of {RATES}")
+    if rate % pilot_rate:
+        raise InputError(f"a pilot does not look {pilot_rate} times a second at {rate} frames a second")
     manual = manual.with_mission(mission)
     departure, arrival = (runway, runway) if runway else _runways(mission)
     empty = manual.limits["operating-empty-mass"]
@@ -130,6 +134,7 @@ def prepare(
         terrain=_Terrain(departure, arrival),
         inputs=inputs,
         preset=preset,
+        trimmed=trimmed,
     )
     configure(plant, [*manual.chosen(mission.configuration), *mission.properties])
     for gain, name in PILOT_GAINS.items():

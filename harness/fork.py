@@ -1,6 +1,7 @@
 """Work done in a fork of this process: it finds everything loaded, leaves nothing behind, and takes nobody along."""
 
 import ctypes
+import gc
 import os
 import pickle
 import signal
@@ -55,6 +56,7 @@ def _do(work: Callable[[], object], parent: int, writing: int) -> None:
     status = 1
     try:
         end_with(parent)
+        gc.freeze()  # a look at the parent's objects would copy their memory
         try:
             answer = pickle.dumps((work(), None))
         except Exception as error:  # noqa: BLE001  raised again by the parent

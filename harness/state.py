@@ -77,6 +77,8 @@ WELL_CLEAR = 600.0  # m above the ground
 STEADY_BANK = 0.02  # rad
 LOW = 100.0  # m above the ground
 BRISK = 15.0  # m/s: faster than taxiing
+SWIFT = 45.0  # m/s: on the runway nothing is decided below it that a twelfth of a second would matter to
+ON_WHEELS = 1.0  # m: with the wheels on the ground, whatever the struts do
 
 
 def close_to_ground(height: float, cas: float) -> bool:
@@ -87,13 +89,13 @@ def close_to_ground(height: float, cas: float) -> bool:
 def rest(state: Motion, step: int) -> int:
     """Pilot steps from `step` until the outer loops turn and Motion is renewed again.
 
-    1 near the runway, else to the next multiple of a second with wings level aloft, of half a second elsewhere: the log
-    records on multiples too, and so never an older position than its time.
+    1 near the runway, 2 when rolling on it slower than SWIFT, else to the next multiple of a second with wings level
+    aloft, of half a second elsewhere: the log records on multiples too, and so never an older position than its time.
     """
     period = MEDIUM_PERIOD
     if state.height < LOW:
         if state.cas > BRISK:
-            return 1
+            return 1 if step % 2 or state.cas > SWIFT or state.height > ON_WHEELS else 2
     elif state.height > WELL_CLEAR and -STEADY_BANK < state.roll < STEADY_BANK:
         period = SLOW_PERIOD
     return (

@@ -6,6 +6,8 @@ after `park` has it already, and flies its own copy of it.
 
 import ctypes
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import jsbsim
@@ -33,6 +35,22 @@ def park_again() -> None:
     """Have the aircraft that was wanted last ready once more, if any was."""
     if _wanted:
         park(*_wanted[-1])
+
+
+@contextmanager
+def parked(root: Path, aircraft: str, rate: int) -> Iterator[None]:
+    """Have an aircraft of this sort parked as long as this lasts, and none after it: files may change.
+
+    Raises InputError when JSBSim refuses it.
+    """
+    sort = (root, aircraft, rate)
+    lasting = sort in _parked
+    park(*sort)
+    try:
+        yield
+    finally:
+        if not lasting:
+            _parked.pop(sort, None)
 
 
 def fresh(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:

@@ -17,6 +17,7 @@ from harness.plant.hangar import fresh, refused
 from harness.plant.impact import IMPACT_SINK, impact
 from harness.plant.instruments import Instruments
 from harness.plant.properties import COMMANDS, PSF, SENSED, STATE
+from harness.plant.stance import stance
 from harness.state import LOW, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, rest
 from harness.units import FT, LB
 
@@ -86,11 +87,13 @@ class JSBSimPlant:
         terrain: Callable[[float, float], float],
         inputs: Inputs | None = None,
         preset: Mapping[str, float] | None = None,
+        trimmed: bool = True,
     ) -> None:
         """`rate` is frames a second; `terrain(latitude, longitude)` the elevation in metres;
         `inputs` is filled with all that is written into the simulator.
 
-        `preset` are properties to put before the first frame, see harness.plant.preset.
+        `preset` are properties to put before the first frame, see harness.plant.preset. Not `trimmed`, the aircraft
+        stands as statics say, see harness.plant.stance.
 
         Raises InputError when the aircraft cannot be loaded or lacks a property that the pilot needs.
         """
@@ -104,7 +107,7 @@ class JSBSimPlant:
         self._aircraft = aircraft
         self._fdm = fresh(root, aircraft, rate)
         self._manager = self._fdm.get_property_manager()
-        self._initialise(placement, loads, air)
+        self._initialise(placement, loads, air, trimmed=trimmed)
         for name, value in (preset or {}).items():
             self._put(name, value)
         self._true_height = self._node("position/h-agl-ft").get_double_value
@@ -177,7 +180,7 @@ class JSBSimPlant:
         sink, self._sink = self._sink, -state.vertical_speed
         pause = rest(state, self._steps)
         self._next_look = self._steps + pause
-        self._whole_period = 2 if pause == 1 else SLOW_PERIOD
+        self._whole_period = 2 if pause <= 2 else SLOW_PERIOD
         height = self._true_height() * FT - self._standing_height
         if height < LOW:
             struck = any(map(call, self._structure)) or height < BELOW_GROUND
@@ -216,7 +219,7 @@ class JSBSimPlant:
             knob="look at the last rows of the time history; a mass, inertia or wind out of all bounds does this",
         )
 
-    def _initialise(self, placement: Placement, loads: Loads, air: Air) -> None:
+    def _initialise(self, placement: Placement, loads: Loads, air: Air, *, trimmed: bool) -> None:
         put = self._put
         for name, value in INTEGRATORS.items():
             put(name, value)
@@ -229,16 +232,25 @@ class JSBSimPlant:
         put("ic/psi-true-deg", degrees(placement.heading))
         self._load(loads)
         put("ic/h-agl-ft", STANDING_HEIGHT / FT)
+        self._set_initial_conditions()
+        if not trimmed:
+            standing = stance(self._read)
+            put("ic/h-agl-ft", standing.height / FT)
+            put("ic/theta-deg", degrees(standing.pitch))
+            self._set_initial_conditions()
+        self._steps = AT_START
+        if trimmed:
+            put("simulation/do_simple_trim", GROUND_TRIM)
+        put("atmosphere/wind-north-fps", air.north / FT)
+        put("atmosphere/wind-east-fps", air.east / FT)
+
+    def _set_initial_conditions(self) -> None:
         try:
             ready = self._fdm.run_ic()
         except jsbsim.BaseError as error:
             raise refused(self._fdm, self._aircraft, str(error)) from error
         if not ready:
             raise InputError("JSBSim could not set the initial conditions")
-        self._steps = AT_START
-        put("simulation/do_simple_trim", GROUND_TRIM)
-        put("atmosphere/wind-north-fps", air.north / FT)
-        put("atmosphere/wind-east-fps", air.east / FT)
 
     def _load(self, loads: Loads) -> None:
         self._put("inertia/pointmass-weight-lbs[0]", loads.payload / LB)

@@ -1,7 +1,6 @@
 """Cases of the kind "flight": the whole mission is flown, and its summary is what came out."""
 
 from collections.abc import Mapping, Sequence
-from functools import cache
 from typing import Any
 
 from harness.analysis.rejected import RejectedTakeOff
@@ -15,7 +14,6 @@ from harness.session import Session
 from harness.studies.model import Subject
 from harness.vocabulary import PHASES
 
-read_manual_once = cache(read_manual)  # a thousand cases, one aircraft
 MACHINE = frozenset({"wall_time_s", "real_time_factor", "versions"})
 """What a summary says of the computer rather than of the flight."""
 NESTED = frozenset({"rejected_take_off", "phases"})
@@ -29,7 +27,7 @@ def run_case(subject: Subject, overrides: Sequence[Override], seed: int) -> Mapp
     Raises InputError when it is not fit to fly, FlightError when the flight cannot be completed.
     """
     mission = read_mission(subject.file, overrides, text=subject.text)
-    manual: FlightManual = read_manual_once(mission.aircraft)
+    manual: FlightManual = read_manual(mission.aircraft)
     check(mission, manual)
     run, stopped = Session.of(mission, manual).fly()
     if stopped is not None:
@@ -43,7 +41,7 @@ def probe(subject: Subject, overrides: Sequence[Override]) -> None:
     if mission.properties:  # only the aircraft itself knows which it has
         from harness.flight import prepare
 
-        prepare(mission, read_manual_once(mission.aircraft), rate=120)
+        prepare(mission, read_manual(mission.aircraft), rate=120)
 
 
 def make_ready() -> None:

@@ -4,7 +4,6 @@ Taken from the mission: aircraft, take-off mass, VR, the day, and heading, eleva
 """
 
 from collections.abc import Mapping, Sequence
-from functools import cache
 from math import cos, sin
 from typing import Any
 
@@ -17,8 +16,6 @@ from harness.studies.model import Subject
 from harness.takeoff.case import FIXED_VR, TakeOff
 from harness.takeoff.flight import fly_take_off
 from harness.takeoff.rows import COLUMNS, row
-
-read_manual_once = cache(read_manual)  # a thousand cases, one aircraft
 
 
 def run_case(subject: Subject, overrides: Sequence[Override], seed: int) -> Mapping[str, Any]:  # noqa: ARG001
@@ -47,7 +44,7 @@ def outputs() -> frozenset[str]:
 
 def _case(subject: Subject, overrides: Sequence[Override]) -> tuple[TakeOff, FlightManual]:
     mission = read_mission(subject.file, overrides, text=subject.text)
-    manual: FlightManual = read_manual_once(mission.aircraft)
+    manual: FlightManual = read_manual(mission.aircraft)
     runway = load().runway(mission.departure.airport, mission.departure.runway)
     day = mission.environment
     angle = day.wind_from - runway.true_heading

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from harness.takeoff.field_flights import Runway
     from harness.takeoff.runway import Site
 
-PILOT_RATE = 120  # steps a second: V1 and VR are met within 0.03 m/s
 DISTANCES = ("--tora", "--toda", "--asda")
 
 
@@ -58,11 +57,11 @@ def run_field(chosen: argparse.Namespace) -> int:
     masses = options.read("--mass", options.masses, chosen.mass)
     fields = options.conditions(chosen)
     workers = options.workers(chosen.workers)
-    from harness.takeoff.case import TakeOff, check_all
+    from harness.takeoff.case import TakeOff, check_all, fine
     from harness.takeoff.field import fields_of
     from harness.takeoff.text import field_data, field_text
 
-    cases = [TakeOff(mass, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields) for mass in masses]
+    cases = [fine(TakeOff(mass, surface=chosen.surface, **fields)) for mass in masses]
     check_all(cases)
     rows = [
         {"mass_kg": case.mass, **field_data(field)}
@@ -93,14 +92,14 @@ def run_card(chosen: argparse.Namespace) -> int:
     site = _site(chosen, fields)
     from harness.manual import read_manual
     from harness.takeoff.card import card
-    from harness.takeoff.case import TakeOff
+    from harness.takeoff.case import TakeOff, fine
     from harness.takeoff.greatest import greatest_mass
     from harness.takeoff.runway import deviation, on_site
     from harness.takeoff.text import card_data, card_text
 
     if celsius is not None:
         fields["isa_deviation"] = deviation(celsius, site.elevation)
-    case = on_site(TakeOff(mass, surface=chosen.surface, pilot_rate=PILOT_RATE, **fields), site, *wind)
+    case = on_site(fine(TakeOff(mass, surface=chosen.surface, **fields)), site, *wind)
     manual = read_manual(case.aircraft)
     result = card(case, site.available, manual, workers=workers)
     greatest = None if chosen.no_greatest_mass else greatest_mass(result, manual, workers)

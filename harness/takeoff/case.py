@@ -2,7 +2,7 @@
 
 from cmath import phase
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import Literal
 
@@ -39,7 +39,9 @@ class TakeOff:
 
     `friction` is a factor on the rolling friction.
     Headwind is positive against the take-off, crosswind positive from the right, slope positive uphill.
-    The pilot rotates at the first of his steps at or above VR: with 24 a second up to 3 m late, with 120 half a metre.
+    The pilot rotates at the first of his steps at or above VR: with 20 a second up to 3 m late, with 120 half a metre.
+    With 60 frames a second distances come out 0.2 % shorter than with 120, at little more than half the cost: what a
+    trade study needs; `fine` is for one whose numbers are searched or compared.
     """
 
     mass: float
@@ -55,8 +57,8 @@ class TakeOff:
     surface: Surface = "dry"
     friction: float = 1.0
     heading: float = 0.0
-    rate: int = 120
-    pilot_rate: int = 24
+    rate: int = 60
+    pilot_rate: int = 20
     aircraft: str = "gta"
 
     @property
@@ -96,6 +98,11 @@ class TakeOff:
             end_longitude,
             self.elevation,
         )
+
+
+def fine(case: TakeOff) -> TakeOff:
+    """The case with at least 120 frames and with 120 pilot steps a second: V1 and VR are met within 0.03 m/s."""
+    return replace(case, rate=max(case.rate, 120), pilot_rate=120)
 
 
 @dataclass(frozen=True)

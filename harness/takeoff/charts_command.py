@@ -11,8 +11,6 @@ from harness.units import parse
 if TYPE_CHECKING:
     from harness.command_line import Subparsers
 
-PILOT_RATE = 120  # steps a second: differences of distances are small
-
 
 def add(topics: "Subparsers") -> None:
     """The arguments of both."""
@@ -37,7 +35,7 @@ def add(topics: "Subparsers") -> None:
             default="scheduled",
             help="rotation speed, CAS (default: by the stall speed)",
         )
-        options.add_conditions(parser)
+        options.add_conditions(parser, fine=parser is derivatives)
         add_json(parser)
         parser.set_defaults(run=run)
 
@@ -47,10 +45,10 @@ def run_sensitivities(chosen: argparse.Namespace) -> int:
     mass = options.read("--mass", parse, chosen.mass, "mass")
     fields = options.conditions(chosen)
     workers = options.workers(chosen.workers)
-    from harness.takeoff.case import TakeOff, check_all
+    from harness.takeoff.case import TakeOff, check_all, fine
     from harness.takeoff.charts import early_rotation, sensitivities
 
-    case = TakeOff(mass, pilot_rate=PILOT_RATE, **fields)
+    case = fine(TakeOff(mass, **fields))
     check_all([case])
     found, early = sensitivities(case, workers), early_rotation(case)
     if chosen.json:

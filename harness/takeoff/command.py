@@ -49,7 +49,7 @@ def add(commands: "Subparsers") -> None:
         default="62.5m/s",
         help="rotation speed, CAS (default: %(default)s), or scheduled: by the stall speed",
     )
-    options.add_conditions(parser)
+    options.add_conditions(parser, fine=False)
     parser.add_argument("--out", metavar="DIR", help="folder for a new folder with table and picture")
     add_json(parser)
     parser.set_defaults(run=run)

@@ -9,7 +9,8 @@ from typing import TypeVar
 
 from harness.errors import HarnessError
 from harness.fork import forked
-from harness.plant.hangar import park
+from harness.manual import read_manual
+from harness.plant.hangar import parked
 from harness.resources import root
 from harness.takeoff.case import TakeOff
 
@@ -34,23 +35,23 @@ def fly_all(
     Each is flown in a fork of its own, with an aircraft that was loaded before: that of `like`. Raises what `fly`
     raises, and HarnessError when a process died.
     """
-    park(root(), like.aircraft, like.rate)
     workers = min(workers, len(cases))
-    if workers <= 1:
-        for act in meanwhile:
-            act()
-        return [_apart(fly, case) for case in cases]
-    # Forked where the system can: the workers have everything imported already, which is most of a short study.
-    with ProcessPoolExecutor(
-        workers, mp_context=get_context("fork" if hasattr(os, "fork") else "spawn")
-    ) as pool:
-        futures = [pool.submit(_apart, fly, case) for case in cases]
-        for act in meanwhile:
-            act()
-        try:
-            return [future.result() for future in futures]
-        except BrokenProcessPool as error:
-            raise HarnessError("a process that flew take-offs has died") from error
+    with parked(root(), like.aircraft, like.rate):
+        read_manual(like.aircraft)  # every fork knows it then
+        if workers <= 1:
+            for act in meanwhile:
+                act()
+            return [_apart(fly, case) for case in cases]
+        # Forked where the system can: the workers have everything imported already, which is most of a short study.
+        context = get_context("fork" if hasattr(os, "fork") else "spawn")
+        with ProcessPoolExecutor(workers, mp_context=context) as pool:
+            futures = [pool.submit(_apart, fly, case) for case in cases]
+            for act in meanwhile:
+                act()
+            try:
+                return [future.result() for future in futures]
+            except BrokenProcessPool as error:
+                raise HarnessError("a process that flew take-offs has died") from error
 
 
 def _apart(fly: Callable[[Case], Result], case: Case) -> Result:

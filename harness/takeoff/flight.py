@@ -221,5 +221,6 @@ def prepared(
         pilot_rate=case.pilot_rate,
         runway=runway,
         preset=preset,
+        trimmed=False,
     )
     return pilot, plant, Track(plant, pilot)

@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
-from harness.command_line import add_rate
+from harness.command_line import RATES, add_rate
 from harness.errors import InputError
 from harness.units import UnitError, parse
 
@@ -40,8 +40,8 @@ QUANTITIES = {
 }
 
 
-def add_conditions(command: argparse.ArgumentParser) -> None:
-    """The options that say on which day and runway, and how it is begun."""
+def add_conditions(command: argparse.ArgumentParser, *, fine: bool = True) -> None:
+    """The options that say on which day and runway, and how it is begun; not `fine`, with 60 frames a second."""
     command.add_argument(
         "--start",
         choices=("brakes-held", "rolling"),
@@ -61,7 +61,7 @@ def add_conditions(command: argparse.ArgumentParser) -> None:
         default=[],
         help=f"and one of {', '.join(WINDS)}; may be repeated",
     )
-    add_rate(command)
+    add_rate(command, RATES if fine else (60, *RATES))
     command.add_argument("--workers", metavar="N", help="processes (default: one for each processor)")
 
 

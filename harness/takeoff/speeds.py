@@ -71,6 +71,7 @@ def control_speeds(case: TakeOff, manual: FlightManual, workers: int = 1) -> Con
         headwind=0.0,
         crosswind=0.0,
         slope=0.0,
+        rate=max(case.rate, 120),
         pilot_rate=PILOT_RATE,
     )
     ground, air = fly_all(_minimum, [(vmcg, light, manual), (vmca, light, manual)], workers, light)

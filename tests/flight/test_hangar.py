@@ -12,6 +12,8 @@ from harness.takeoff.rows import row
 @pytest.fixture
 def loads(monkeypatch):
     seen = []
+    monkeypatch.setattr(hangar, "_parked", {})
+    monkeypatch.setattr(hangar, "_wanted", [])
     load = hangar.load
     monkeypatch.setattr(hangar, "load", lambda *sort: seen.append(sort) or load(*sort))
     return seen
@@ -19,8 +21,8 @@ def loads(monkeypatch):
 
 def test_a_parked_aircraft_is_flown_once_and_gives_the_same_numbers(loads):
     case = TakeOff(91e3)
-    hangar.park(root(), "gta", 120)
-    hangar.park(root(), "gta", 120)
+    hangar.park(root(), "gta", case.rate)
+    hangar.park(root(), "gta", case.rate)
     assert len(loads) == 1
     parked = row(fly_take_off(case))
     assert len(loads) == 1

@@ -92,11 +92,11 @@ def test_every_mode_change_says_why(witness: Witness) -> None:
 def test_the_pilot_looks_24_times_a_second_at_the_runway_and_once_or_twice_elsewhere(
     witness: Witness,
 ) -> None:
-    """Sooner than half a second only where he waits for a climb, or for a moment."""
+    """Half as often when he rolls slowly; elsewhere sooner only where he waits for a climb, or for a moment."""
     pauses = [(after - before) * 24 for before, after in pairwise(witness.times)]
-    assert all(
-        pause == pytest.approx(1, abs=1e-6) for pause, near in zip(pauses, witness.near, strict=False) if near
-    )
+    close = [round(pause) for pause, near in zip(pauses, witness.near, strict=False) if near]
+    assert set(close) == {1, 2}
+    assert 0.1 < close.count(2) / len(close) < 0.7
     elsewhere = [pause for pause, near in zip(pauses, witness.near, strict=False) if not near]
     assert 12 in {round(pause) for pause in elsewhere}
     assert max(elsewhere) <= 24 + 1e-6
