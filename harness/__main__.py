@@ -2,6 +2,9 @@
 
 import sys
 
-from harness.cli import main
+try:
+    from harness.cli import main
+except KeyboardInterrupt:  # while it is still being read in
+    sys.exit(130)
 
 sys.exit(main())

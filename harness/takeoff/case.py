@@ -202,5 +202,5 @@ def _why_not_140(vr: float) -> str:
         return ""
     return (
         "the paper prints 140 m/s, but its 972 m would then take 1.03 g on average, three times the thrust there is. "
-        f"{FIXED_VR} m/s reproduces both of its distances; 140 kt is some 15 % too long"
+        f"{FIXED_VR} m/s reproduces both of its distances; 140 kt is 13 to 21 % too long"
     )
