@@ -72,7 +72,7 @@ def _do(work: Callable[[], object], parent: int, writing: int) -> None:
 
 def end_with(parent: int) -> None:
     """Have the kernel end this process with its parent, even while a library keeps Python from running."""
-    if sys.platform == "linux":
+    if AVAILABLE:
         ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # 1: PR_SET_PDEATHSIG
         if os.getppid() != parent:  # gone before we asked
             os._exit(0)

@@ -38,7 +38,7 @@ def read_manual(aircraft: str | Path) -> FlightManual:
     InputErrors naming file and line of everything wrong in it.
     """
     file = _manual_file(aircraft)
-    return _read(file, file.stat().st_mtime_ns) if file.is_file() else _read.__wrapped__(file, 0)
+    return _read(file, file.stat().st_mtime_ns if file.is_file() else 0)
 
 
 @lru_cache(maxsize=8)

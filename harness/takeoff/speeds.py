@@ -15,7 +15,7 @@ from harness.manual import FlightManual
 from harness.mission.envelope import SLOWEST_DECISION
 from harness.numerics import wrap
 from harness.state import State
-from harness.takeoff.case import Happening, TakeOff, lightest
+from harness.takeoff.case import Happening, TakeOff, fine, lightest
 from harness.takeoff.fleet import fly_all
 from harness.takeoff.flight import TIME_LIMIT, prepared
 from harness.units import FT, TONNE
@@ -64,14 +64,13 @@ class Speeds(NamedTuple):
 def control_speeds(case: TakeOff, manual: FlightManual, workers: int = 1) -> ControlSpeeds:
     """Fly for VMCG and VMCA of the day of `case`, in still air on a level dry runway. Raises FlightError."""
     light = replace(
-        case,
+        fine(case),
         mass=lightest(manual),
         vr=None,
         surface="dry",
         headwind=0.0,
         crosswind=0.0,
         slope=0.0,
-        rate=max(case.rate, 120),
         pilot_rate=PILOT_RATE,
     )
     ground, air = fly_all(_minimum, [(vmcg, light, manual), (vmca, light, manual)], workers, light)
