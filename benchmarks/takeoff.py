@@ -20,7 +20,7 @@ import environment
 import jsbsim
 from frame import in_flight
 
-from harness.plant.hangar import parked
+from harness.plant.hangar import Sort, parked
 from harness.resources import root
 from harness.takeoff.case import TakeOff
 from harness.takeoff.fleet import fly_all
@@ -56,7 +56,7 @@ def main() -> None:
     yardstick = in_flight(str(Path(jsbsim.__file__).parent), "C130")
     fly_take_off(cases[0])
     alone, together, frames, counts, others = [], [], [], [], []
-    with parked(root(), cases[0].aircraft, cases[0].rate):
+    with parked(Sort(root(), cases[0].aircraft, cases[0].rate, own_rates=True)):
         for _ in range(REPEATS):
             for case in cases:
                 others.append(_each(yardstick.run))

@@ -12,6 +12,7 @@ from harness.manual import FlightManual
 from harness.mission.model import Mission
 from harness.navigation.database import Ils, Runway, load
 from harness.pilot.pilot import Pilot
+from harness.plant.hangar import Sort
 from harness.plant.jsbsim_plant import Air, JSBSimPlant, Loads, Placement
 from harness.plant.properties import PILOT_GAINS
 from harness.resources import root
@@ -19,7 +20,7 @@ from harness.state import Commands, State
 from harness.world import earth
 
 PILOT_RATE = 24  # pilot steps a second
-RATES = (60, 120, 240, 480)  # frames a second
+RATES = (30, 60, 120, 240, 480)  # frames a second
 TIME_LIMIT = 8 * 3600.0  # s: longer than the fuel of a transport aircraft of this class lasts at low level
 LINE_UP = 30.0  # m past the threshold, where a mission without a stand begins
 
@@ -99,16 +100,17 @@ def prepare(
     rate: int,
     pilot_rate: int = PILOT_RATE,
     runway: Runway | None = None,
-    preset: Mapping[str, float] | None = None,
+    preset: Sequence[Mapping[str, float]] = (),
     inputs: Inputs | None = None,
     trimmed: bool = True,
+    own_rates: bool = False,
 ) -> tuple[Pilot, JSBSimPlant]:
     """Make the pilot and the plant of a mission, ready for the first step.
 
     `pilot_rate` is pilot steps a second, a divisor of `rate`. `runway`, one that need not be in the database,
-    replaces both of the mission's; `preset` are properties of the aircraft to put before the first frame
+    replaces both of the mission's; `preset` are properties of the aircraft to put before the first frames
     (harness.plant.preset). `trimmed` False is for the aircraft whose brakes are held anyway until it stands still: see
-    JSBSimPlant. Raises InputError.
+    JSBSimPlant; `own_rates` is that of harness.plant.hangar.Sort. Raises InputError.
     """
     if rate not in RATES:
         raise InputError(f"{rate} frames a second are not possible", remedy=f"choose one of {RATES}")
@@ -119,9 +121,7 @@ def prepare(
     empty = manual.limits["operating-empty-mass"]
     day = mission.environment
     plant = JSBSimPlant(
-        root(),
-        mission.aircraft,
-        rate=rate,
+        Sort(root(), mission.aircraft, rate, own_rates),
         frames_per_step=rate // pilot_rate,
         placement=_placement(mission, departure),
         loads=_loads(mission, empty),

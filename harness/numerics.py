@@ -1,6 +1,6 @@
 """Small pieces of arithmetic that every controller needs."""
 
-from math import pi
+from math import exp, pi
 
 
 def clamp(value: float, low: float, high: float) -> float:
@@ -41,5 +41,5 @@ class LowPass:
 
     def update(self, target: float, dt: float) -> float:
         """Let `dt` seconds pass with the input at `target`, and return the output."""
-        self.value += (target - self.value) * dt / (self.tau + dt)
+        self.value += (target - self.value) * (1.0 - exp(-dt / self.tau))
         return self.value

@@ -3,19 +3,20 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
 from functools import partial
+from math import ceil
 from operator import attrgetter
 from typing import NamedTuple
 
 
 @dataclass(slots=True)
 class Motion:
-    """What of a State is renewed whenever the pilot's outer loops turn; the first three whenever the pilot looks."""
+    """What of a State is renewed whenever the pilot's outer loops turn; the first four whenever the pilot looks."""
 
     time: float  # simulated time since the first frame, s
     vertical_speed: float  # m/s, up
     pitch: float  # nose up
-    height: float  # of the main wheels above the ground, aircraft level: 0 on the runway
     cas: float  # m/s
+    height: float  # of the main wheels above the ground, aircraft level: 0 on the runway
     tas: float
     altitude: float  # above mean sea level (the chart's height)
     pressure_altitude: float  # ISA altitude of the static pressure, geopotential
@@ -35,8 +36,8 @@ class State(Motion):
     """The aircraft as the pilot sees it: live, renewed in place by the plant. What is to be kept must be copied.
 
     Angles are in radians, headings and tracks true and in [0, 2 pi). Heights and altitudes in metres. A plant renews
-    time, vertical speed and pitch whenever it stops for the pilot, all of Motion `rest` steps after it did so, and the
-    other fields twelve times a second on and just above the runway, once a second elsewhere.
+    time, vertical speed, pitch and CAS whenever it stops for the pilot, all of Motion `rest` steps after it did so, and
+    the other fields twelve times a second on and just above the runway, once a second elsewhere.
     """
 
     load_factor: float  # normal, 1 in level flight
@@ -77,8 +78,10 @@ WELL_CLEAR = 600.0  # m above the ground
 STEADY_BANK = 0.02  # rad
 LOW = 100.0  # m above the ground
 BRISK = 15.0  # m/s: faster than taxiing
-SWIFT = 45.0  # m/s: on the runway nothing is decided below it that a twelfth of a second would matter to
+ROLLING = 1.0 / 12.0  # s between two turns of the outer loops on the runway and climbing away from it
+CLIMBING = 1.0  # m/s: the ground does not come nearer
 ON_WHEELS = 1.0  # m: with the wheels on the ground, whatever the struts do
+NOSE_UP = 0.02  # rad, attitude of the nose: level is up, standing is below level
 
 
 def close_to_ground(height: float, cas: float) -> bool:
@@ -86,21 +89,29 @@ def close_to_ground(height: float, cas: float) -> bool:
     return height < LOW and cas > BRISK
 
 
-def rest(state: Motion, step: int) -> int:
+def rolling_period(step: float) -> int:
+    """Pilot steps of `step` seconds in ROLLING, at least 1."""
+    return max(ceil(ROLLING / step - 0.01), 1)
+
+
+def rest(state: Motion, step: int, rolling: int) -> int:
     """Pilot steps from `step` until the outer loops turn and Motion is renewed again.
 
-    1 near the runway, 2 when rolling on it slower than SWIFT, else to the next multiple of a second with wings level
-    aloft, of half a second elsewhere: the log records on multiples too, and so never an older position than its time.
+    To the next multiple of `rolling`, see `rolling_period`, on the runway and climbing away from it; of half of it
+    while the ground comes nearer, a quarter while the nose is up and the wheels are about to leave it or have just
+    touched; else to the next multiple of a second with wings level aloft, of half a second elsewhere.
+    Multiples, because the log records on them: never an older position than its time.
     """
     period = MEDIUM_PERIOD
     if state.height < LOW:
         if state.cas > BRISK:
-            return 1 if step % 2 or state.cas > SWIFT or state.height > ON_WHEELS else 2
+            if state.height < ON_WHEELS:
+                period = rolling if state.pitch < NOSE_UP else max(rolling // 4, 1)
+            else:
+                period = rolling if state.vertical_speed > CLIMBING else max(rolling // 2, 1)
     elif state.height > WELL_CLEAR and -STEADY_BANK < state.roll < STEADY_BANK:
         period = SLOW_PERIOD
-    return (
-        1 if step % 2 else period - step % period
-    )  # close to the ground a record is made at every second step
+    return period - step % period
 
 
 TO_ATTITUDE, ALONG_PATH, FLARING = 1.0, 2.0, 3.0

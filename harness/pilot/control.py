@@ -80,7 +80,9 @@ class ControlSystem:
         self._climb_lever = manual.thrust["climb"]
         self._taxi_gains = TaxiGains(*(gains[f"taxi-{name.replace('_', '-')}"] for name in TaxiGains._fields))
         lag = gains["neuromuscular-lag"]
-        self._limbs = [LowPass(lag) for _ in range(4)] if lag else []
+        self._limbs = [LowPass(lag), LowPass(lag), LowPass(lag), LowPass(lag, 1.0)] if lag else []
+        self._moved_at = 0.0  # s
+        self._meant = (0.0, 0.0, 0.0, 1.0)  # for lever, rudder, nose wheel and brakes
         self._bank = self._wheel = self._rudder = self._coordinate = 0.0
         self._standing: tuple[float, ...] = ()  # commands that procedures change; empty when they have
 
@@ -91,7 +93,7 @@ class ControlSystem:
         self._standing = ()
         if name == "thrust":
             lever = self.manual.thrust[to]
-            self.speed.hand = lever
+            self.speed.put(lever)
             self.speed.highest_lever = max(lever, self._climb_lever)
         elif name == "flaps":
             self._settings = self._settings._replace(flap=self.manual.flap(to).position)
@@ -223,20 +225,20 @@ class ControlSystem:
             speed.update(state, self.target_cas, self.vertical.path_angle, dt)
         self.vertical.aim(state, level_error, route.glide_slope, route.distance_to_threshold, path)
         self._steer(state, dt)
-        if self._limbs:
-            for limb, wanted in zip(self._limbs, self._by_hand(), strict=True):
-                limb.update(wanted, dt)
 
     def _by_hand(self) -> tuple[float, float, float, float]:
         """What hands and feet are to do: thrust lever, rudder, nose wheel, brakes."""
         brake = self._taxi_brake if self._taxiing else self._settings.brake
         return self.speed.lever, self._rudder, self._wheel, brake
 
-    def command(self) -> Commands:
-        """All commands."""
+    def command(self, time: float) -> Commands:
+        """All commands at `time` (s)."""
         lever, rudder, wheel, brake = self._by_hand()
         if self._limbs:
-            lever, rudder, wheel, brake = (quantised(limb.value) for limb in self._limbs)
+            dt, self._moved_at = time - self._moved_at, time
+            moves = zip(self._limbs, self._meant, strict=True)  # until now: what was meant at the last look
+            self._meant = (lever, rudder, wheel, brake)
+            lever, rudder, wheel, brake = (quantised(limb.update(to, dt)) for limb, to in moves)
         self._standing = self._standing or self._stand()
         moving = (lever, self.vertical.wanted, self._bank, rudder, wheel, brake, self._coordinate)
         return new_commands(moving + self._standing)

@@ -10,19 +10,20 @@ from harness.mission.model import Leg, Mission
 from harness.navigation.database import Ils, Runway
 from harness.numerics import wrap
 from harness.pilot.balance import BalanceWatch
-from harness.pilot.checklist import Item, OpenChecklist, item, prepared
+from harness.pilot.checklist import Item, Number, OpenChecklist, item, prepared
 from harness.pilot.control import ControlSystem
 from harness.pilot.go_around import circuit
 from harness.pilot.machine import END, START, PhaseGraph
 from harness.pilot.procedure import SAME_MOMENT, Procedure, ReadyStep
 from harness.pilot.route import NavigationComputer
 from harness.plan import Emergency, Step
-from harness.state import Commands, State, rest
+from harness.state import Commands, State, rest, rolling_period
 from harness.units import show
 from harness.vocabulary import OUTCOMES
 
 FAST = frozenset({"vertical-speed", "pitch"})
 """Quantities looked at in every pilot step by whoever waits for them; others when the outer loops turn."""
+QUICKEST = 10.0  # m/s2: neither engines nor brakes change the airspeed on the runway faster
 ROUTE_PERIOD = 48  # pilot steps between two looks at the route, far from the next waypoint
 NEAR_WAYPOINT = 15000.0  # m: more than the lead of any turn
 LEVEL_REACHED = 30.0  # m: a level this near is captured however slowly it is approached
@@ -70,9 +71,11 @@ class Pilot:
         self._on_runway = False
         self._alert = False  # something waited for changes at every step
         self._moments: list[float] = []  # times that are waited for, s
+        self._speeds: list[Number] = []  # CAS that are waited for, m/s
         self._steps = 0  # of the pilot, since the first frame
         self._turn = 0  # the step at which the outer loops turn
         self._next = 0  # the step at which something is to be done
+        self._rolling = rolling_period(step)
         self._period = 1
         self._route_rest = 0
         self._commands = Commands()
@@ -120,7 +123,7 @@ class Pilot:
         self._steps = round(state.time / self.step)
         if self._steps >= self._next:
             self._decide(state)
-            self._next = self._next_look()
+            self._next = self._next_look(state)
         return self._commands
 
     def _decide(self, state: State) -> None:
@@ -142,18 +145,23 @@ class Pilot:
             self.control.turn_outer_loops(state, self.level_error, self._period * self.step)
             if state.main_on_ground and self._on_runway:
                 self.control.runway.check(state, self.phase)
-            self._period = rest(state, self._steps)
+            self._period = rest(state, self._steps, self._rolling)
             self._turn = self._steps + self._period
-        self._commands = self.control.command()
+        self._commands = self.control.command(state.time)
 
-    def _next_look(self) -> int:
+    def _next_look(self, state: State) -> int:
         """The step at which the outer loops turn, or something before it is waited for."""
         if self._alert:
             return self._steps + 1
-        if not self._moments:
-            return self._turn
-        due = [ceil(moment / self.step - SAME_MOMENT) for moment in self._moments]
-        return min([self._turn, *(max(step, self._steps + 1) for step in due if step >= self._steps)])
+        step = self._turn
+        soonest, now = step * self.step, state.time - SAME_MOMENT
+        for moment in (*self._moments, *[procedure.ready_at for procedure in self._procedures]):
+            if now <= moment < soonest:
+                soonest, step = moment, ceil(moment / self.step - SAME_MOMENT)
+        if self._speeds and self._on_runway and state.main_on_ground:
+            gap = min([abs(speed(state) - state.cas) for speed in self._speeds])
+            step = min(step, self._steps + int(gap / (QUICKEST * self.step)))
+        return max(step, self._steps + 1)
 
     def _look_around(self, state: State) -> None:
         """Renew what is known of route, level and engines."""
@@ -188,6 +196,7 @@ class Pilot:
             for entry in waited
             if entry.condition.quantity in begin and self._state is not None
         ]
+        self._speeds = [entry.required for entry in waited if entry.condition.quantity == "cas"]
 
     # What conditions measure.
 

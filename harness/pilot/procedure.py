@@ -1,6 +1,7 @@
 """Procedures: the pilot carries their steps out, in order, each when its conditions hold (Fig. 10)."""
 
 from collections.abc import Iterable
+from math import inf
 from typing import NamedTuple
 
 from harness.pilot.checklist import Cockpit, Item, item
@@ -36,7 +37,7 @@ class Procedure:
             for step in steps
         ]
         self._reaction = reaction
-        self._since: float | None = None  # what the next step waits for holds from then on
+        self.ready_at = inf  # when the next step is carried out, if what it waits for holds until then, s
 
     def due(self, state: State) -> ReadyStep | None:
         """Take the step that is due now, if one is; those that do not apply are dropped."""
@@ -46,11 +47,11 @@ class Procedure:
                 del self.steps[0]
                 continue
             if not all(entry.holds(state) for entry in ready.when):
-                self._since = None
+                self.ready_at = inf
                 return None
-            if self._since is None:
-                self._since = state.time
-            if state.time - self._since < self._reaction - SAME_MOMENT:
+            if self.ready_at == inf:
+                self.ready_at = state.time + self._reaction
+            if state.time < self.ready_at - SAME_MOMENT:
                 return None
             return self.steps.pop(0)
         return None

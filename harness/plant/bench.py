@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from harness.errors import InputError
 from harness.loading.aircraft import read_stowage
-from harness.plant.hangar import load
+from harness.plant.hangar import Sort, load
 from harness.plant.jsbsim_plant import GROUND_TRIM, INTEGRATORS, STANDING_HEIGHT
 from harness.plant.properties import STATE, THROTTLES, Binding
 from harness.state import FIELDS
@@ -77,7 +77,7 @@ class Bench:
 
     def __init__(self, root: Path, aircraft: str, *, rate: int = 120) -> None:
         self.rate = rate
-        self._fdm = load(root, aircraft, rate)
+        self._fdm = load(Sort(root, aircraft, rate))
         self._stowage = read_stowage(root / "aircraft" / aircraft / f"{aircraft}.xml")
         self._manager = self._fdm.get_property_manager()
         self._getters: dict[str, Callable[[], float]] = {}

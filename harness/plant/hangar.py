@@ -9,43 +9,56 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import NamedTuple
 
 import jsbsim
 
 from harness.errors import InputError
 from harness.lint.aircraft import check
+from harness.plant.cadence import own_rates
 from harness.plant.messages import Messages
 
-_Sort = tuple[Path, str, int]
-_parked: dict[_Sort, jsbsim.FGFDMExec] = {}
-_wanted: list[_Sort] = []
+
+class Sort(NamedTuple):
+    """What one aircraft has in common with another that it can stand in for.
+
+    `rate` is frames a second; `own_rates` runs control laws, engines and systems as often as harness.plant.cadence
+    says, whatever that is. Without it they go by frames, as in JSBSim's own program.
+    """
+
+    root: Path
+    aircraft: str
+    rate: int
+    own_rates: bool = False
 
 
-def park(root: Path, aircraft: str, rate: int) -> None:
+_parked: dict[Sort, jsbsim.FGFDMExec] = {}
+_wanted: list[Sort] = []
+
+
+def park(sort: Sort) -> None:
     """Have an aircraft of this sort ready, for the next flight of this process and of each forked from it.
 
     Raises InputError when JSBSim refuses it.
     """
-    sort = (root, aircraft, rate)
     if sort not in _parked:
-        _parked[sort] = load(*sort)
+        _parked[sort] = load(sort)
 
 
 def park_again() -> None:
     """Have the aircraft that was wanted last ready once more, if any was."""
     if _wanted:
-        park(*_wanted[-1])
+        park(_wanted[-1])
 
 
 @contextmanager
-def parked(root: Path, aircraft: str, rate: int) -> Iterator[None]:
+def parked(sort: Sort) -> Iterator[None]:
     """Have an aircraft of this sort parked as long as this lasts, and none after it: files may change.
 
     Raises InputError when JSBSim refuses it.
     """
-    sort = (root, aircraft, rate)
     lasting = sort in _parked
-    park(*sort)
+    park(sort)
     try:
         yield
     finally:
@@ -53,28 +66,34 @@ def parked(root: Path, aircraft: str, rate: int) -> Iterator[None]:
             _parked.pop(sort, None)
 
 
-def fresh(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
-    """A simulator with this aircraft that nobody has flown, `rate` frames a second. Raises InputError as `load`."""
-    sort = (root, aircraft, rate)
-    fdm = _parked.pop(sort, None) or load(*sort)
+def fresh(sort: Sort) -> jsbsim.FGFDMExec:
+    """A simulator with an aircraft of this sort that nobody has flown. Raises InputError as `load`."""
+    fdm = _parked.pop(sort, None) or load(sort)
     _wanted[:] = [sort]
     return fdm
 
 
-def load(root: Path, aircraft: str, rate: int) -> jsbsim.FGFDMExec:
-    """A simulator with this aircraft, `rate` frames a second. Raises InputError when JSBSim refuses it."""
-    check(root, aircraft)
+def load(sort: Sort) -> jsbsim.FGFDMExec:
+    """A simulator with an aircraft of this sort. Raises InputError when JSBSim refuses it."""
+    check(sort.root, sort.aircraft)
+    if sort.own_rates:
+        with own_rates(sort.root, sort.aircraft, sort.rate) as folder:
+            return _load(folder, sort)
+    return _load(sort.root, sort)
+
+
+def _load(folder: Path, sort: Sort) -> jsbsim.FGFDMExec:
     messages = Messages()
     jsbsim.set_logger(messages)
-    fdm = jsbsim.FGFDMExec(str(root))
+    fdm = jsbsim.FGFDMExec(str(folder))
     fdm.set_debug_level(0)
-    fdm.set_dt(1.0 / rate)  # before the model: filters and actuators keep the step they were loaded with
+    fdm.set_dt(1.0 / sort.rate)  # before the model: filters and actuators keep the step they were loaded with
     try:
-        loaded = fdm.load_model(aircraft)
+        loaded = fdm.load_model(sort.aircraft)
     except jsbsim.BaseError as error:
-        raise refused(fdm, aircraft, str(error)) from error
+        raise refused(fdm, sort.aircraft, str(error).replace(str(folder), str(sort.root))) from error
     if not loaded:
-        raise refused(fdm, aircraft, "\n    ".join(messages.serious))
+        raise refused(fdm, sort.aircraft, "\n    ".join(messages.serious))
     fdm.disable_output()
     return fdm
 

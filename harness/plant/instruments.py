@@ -27,8 +27,8 @@ class Instruments:
         self._factors = list(factors)
         self._standing_height = standing_height
         self._motion = self._get[: len(MOTION)]
-        _, self._vertical_speed, self._pitch = self._get[:3]
-        _, self._climb_factor, self._pitch_factor = self._factors[:3]
+        _, self._vertical_speed, self._pitch, self._cas = self._get[:4]
+        _, self._climb_factor, self._pitch_factor, self._cas_factor = self._factors[:4]
 
     def glance(self, time: float) -> bool:
         """Renew what changes fastest; False when some of it is not finite."""
@@ -38,7 +38,8 @@ class Instruments:
         state.time = time
         state.vertical_speed = vertical_speed
         state.pitch = pitch
-        return -inf < vertical_speed + pitch < inf
+        state.cas = self._cas() * self._cas_factor
+        return -inf < vertical_speed + pitch + state.cas < inf
 
     def look(self, time: float, *, whole: bool) -> bool:
         """Renew the motion, or the whole State; False, and nothing done, when some of it is not finite."""

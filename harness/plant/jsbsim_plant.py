@@ -4,7 +4,6 @@ from collections.abc import Callable, Mapping, Sequence
 from itertools import repeat, starmap
 from math import ceil, degrees, nan
 from operator import call
-from pathlib import Path
 from typing import NamedTuple
 
 import jsbsim
@@ -13,12 +12,12 @@ from harness.errors import InputError, NumericalError
 from harness.loading.balance import Item, combined, four_points
 from harness.log import Inputs
 from harness.log.inputs import AT_START, BEFORE, Write
-from harness.plant.hangar import fresh, refused
+from harness.plant.hangar import Sort, fresh, refused
 from harness.plant.impact import IMPACT_SINK, impact
 from harness.plant.instruments import Instruments
 from harness.plant.properties import COMMANDS, PSF, SENSED, STATE
 from harness.plant.stance import stance
-from harness.state import LOW, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, rest
+from harness.state import LOW, MEDIUM_PERIOD, SLOW_PERIOD, Commands, State, rest, rolling_period
 from harness.units import FT, LB
 
 INTEGRATORS = {
@@ -76,40 +75,42 @@ class JSBSimPlant:
 
     def __init__(
         self,
-        root: Path,
-        aircraft: str,
+        sort: Sort,
         *,
-        rate: int,
         frames_per_step: int,
         placement: Placement,
         loads: Loads,
         air: Air,
         terrain: Callable[[float, float], float],
         inputs: Inputs | None = None,
-        preset: Mapping[str, float] | None = None,
+        preset: Sequence[Mapping[str, float]] = (),
         trimmed: bool = True,
     ) -> None:
-        """`rate` is frames a second; `terrain(latitude, longitude)` the elevation in metres;
-        `inputs` is filled with all that is written into the simulator.
+        """`terrain(latitude, longitude)` is the elevation in metres; `inputs` is filled with all that is written into
+        the simulator.
 
-        `preset` are properties to put before the first frame, see harness.plant.preset. Not `trimmed`, the aircraft
-        stands as statics say, see harness.plant.stance.
+        `preset` are properties to put before the first frame, and before each of the next, which are flown here, see
+        harness.plant.preset. Not `trimmed`, the aircraft stands as statics say, see harness.plant.stance.
 
         Raises InputError when the aircraft cannot be loaded or lacks a property that the pilot needs.
         """
         self._frames = frames_per_step
-        self._step = frames_per_step / rate
+        self._step = frames_per_step / sort.rate
+        self._rolling = rolling_period(self._step)
         self._terrain = terrain
         self._inputs = inputs or Inputs()
-        self._inputs.rate, self._inputs.frames_per_step = rate, frames_per_step
+        self._inputs.rate, self._inputs.frames_per_step = sort.rate, frames_per_step
         self._wrote = self._inputs.writes.append
         self._steps = BEFORE
-        self._aircraft = aircraft
-        self._fdm = fresh(root, aircraft, rate)
+        self._aircraft = sort.aircraft
+        self._fdm = fresh(sort)
         self._manager = self._fdm.get_property_manager()
         self._initialise(placement, loads, air, trimmed=trimmed)
-        for name, value in (preset or {}).items():
-            self._put(name, value)
+        for frame, properties in enumerate(preset):
+            if frame:
+                self._fdm.run()
+            for name, value in properties.items():
+                self._put(name, value)
         self._true_height = self._node("position/h-agl-ft").get_double_value
         self._standing_height = self._true_height() * FT
         self._bind({})
@@ -178,9 +179,9 @@ class JSBSimPlant:
         self._look(whole=self._steps % self._whole_period == 0)
         state = self._state
         sink, self._sink = self._sink, -state.vertical_speed
-        pause = rest(state, self._steps)
+        pause = rest(state, self._steps, self._rolling)
         self._next_look = self._steps + pause
-        self._whole_period = 2 if pause <= 2 else SLOW_PERIOD
+        self._whole_period = self._rolling if pause <= self._rolling else SLOW_PERIOD
         height = self._true_height() * FT - self._standing_height
         if height < LOW:
             struck = any(map(call, self._structure)) or height < BELOW_GROUND

@@ -1,30 +1,46 @@
 """Properties to put before the first frame, for flights that do not begin parked with cold engines."""
 
 from math import cos, sin
+from typing import NamedTuple
 
 from harness.units import G0, LB
 
 ENGINES = 4
-RUNNING_POWER = 4000.0  # kW of each engine in the first frame; see `lined_up`
-FINE_PITCH = (
-    16.0  # deg: the fine-pitch stop on the ground with the lever at take-off, systems/propulsion-fadec.xml
-)
+INERTIA = 550.0  # kg m2 of a propeller and what turns with it, engine/gta_propeller.xml
+SPEED = 88.2  # rad/s: 842 rpm, what the propellers are governed to in a take-off
 
 
-def lined_up(flap: float) -> dict[str, float]:
+class Running(NamedTuple):
+    """An engine that has run for a while, standing at sea level on a standard day; elsewhere it settles in a second.
+
+    What systems/propulsion-*.xml come to there: shaft power in kW, blade angle and the governor's share of it in deg.
+    """
+
+    power: float
+    blade_angle: float
+    governor_integral: float
+
+
+TAKE_OFF = Running(7900.0, 27.0, 13.5)
+IDLE = Running(260.0, -3.0, -6.0)
+
+
+def lined_up(flap: float, engines: Running, rate: int) -> tuple[dict[str, float], dict[str, float]]:
     """The aircraft at the runway, engines running and flaps at position `flap` (0 up .. 1 landing).
 
-    JSBSim lets nobody set a propeller's speed, so the propellers start from rest with a moderate power on their
-    shafts, which brings them to their governed speed within two seconds, with less than 115 % of it on the way.
+    What to put before the first frame, and before the second; `rate` is frames a second. JSBSim lets nobody set a
+    propeller's speed, and takes one at rest to turn with 1 rad/s: a power P for a frame of dt makes its speed P dt / I
+    of the next. So the first frame has the power that brings it to SPEED at once.
     """
-    engines = {
+    states = {
         "propulsion/core-norm[{}]": 1.0,
-        "propulsion/engine-power-kw[{}]": RUNNING_POWER,
-        "fadec/blade-angle-deg[{}]": FINE_PITCH,
-        "fadec/governor-integral-deg[{}]": FINE_PITCH,
+        "propulsion/engine-power-kw[{}]": INERTIA * SPEED * rate / 1e3,
+        "fadec/blade-angle-deg[{}]": engines.blade_angle,
+        "fadec/governor-integral-deg[{}]": engines.governor_integral,
     }
-    running = {name.format(i): value for name, value in engines.items() for i in range(ENGINES)}
-    return {**running, "fcs/flap-pos-norm": flap}
+    begun = {name.format(i): value for name, value in states.items() for i in range(ENGINES)}
+    running = {f"propulsion/engine-power-kw[{i}]": engines.power for i in range(ENGINES)}
+    return {**begun, "fcs/flap-pos-norm": flap}, running
 
 
 def slope(rise: float, mass: float, heading: float) -> dict[str, float]:

@@ -10,7 +10,7 @@ from typing import TypeVar
 from harness.errors import HarnessError
 from harness.fork import forked
 from harness.manual import read_manual
-from harness.plant.hangar import parked
+from harness.plant.hangar import Sort, parked
 from harness.resources import root
 from harness.takeoff.case import TakeOff
 
@@ -36,7 +36,7 @@ def fly_all(
     raises, and HarnessError when a process died.
     """
     workers = min(workers, len(cases))
-    with parked(root(), like.aircraft, like.rate):
+    with parked(Sort(root(), like.aircraft, like.rate, own_rates=True)):
         read_manual(like.aircraft)  # every fork knows it then
         if workers <= 1:
             for act in meanwhile:

@@ -12,7 +12,7 @@ from harness.log import Event, Reporter
 from harness.manual import FlightManual, read_manual
 from harness.pilot.pilot import Pilot
 from harness.plant.jsbsim_plant import JSBSimPlant
-from harness.plant.preset import lined_up, slope
+from harness.plant.preset import IDLE, TAKE_OFF, lined_up, slope
 from harness.state import Commands, State
 from harness.takeoff import technique
 from harness.takeoff.case import NOTHING, Happening, TakeOff, check
@@ -132,8 +132,8 @@ class Track:
         if commands.brake and not self.rows:
             return
         along, across = self._centreline.offset(state)
-        if self.rows and (along, state.cas) == (self.rows[-1][1], self.rows[-1][5]):
-            return  # when slow, State is not renewed at every step
+        if self.rows and along == self.rows[-1][1]:
+            return  # the position is not renewed at every look
         speed = (state.velocity_north**2 + state.velocity_east**2) ** 0.5
         self.rows.append(
             (
@@ -207,7 +207,9 @@ def prepared(
     manual = manual or read_manual(case.aircraft)
     check(case, manual)
     runway = case.runway(RUNWAY)
-    preset = lined_up(manual.flap(case.flaps).position)
+    preset, running = lined_up(
+        manual.flap(case.flaps).position, IDLE if case.start == "rolling" else TAKE_OFF, case.rate
+    )
     if case.surface == "wet":
         preset["ground/surface"] = WET
     if case.friction != 1.0:
@@ -220,7 +222,8 @@ def prepared(
         rate=case.rate,
         pilot_rate=case.pilot_rate,
         runway=runway,
-        preset=preset,
+        preset=(preset, running),
         trimmed=False,
+        own_rates=True,
     )
     return pilot, plant, Track(plant, pilot)

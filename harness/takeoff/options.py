@@ -61,7 +61,7 @@ def add_conditions(command: argparse.ArgumentParser, *, fine: bool = True) -> No
         default=[],
         help=f"and one of {', '.join(WINDS)}; may be repeated",
     )
-    add_rate(command, RATES if fine else (60, *RATES))
+    add_rate(command, RATES if fine else (30, 60, *RATES))
     command.add_argument("--workers", metavar="N", help="processes (default: one for each processor)")
 
 

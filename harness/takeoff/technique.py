@@ -21,7 +21,7 @@ PITCH_RATE = (
 FREE = 1e4
 SLOWING = 240.0  # s: a heavy aircraft loses its speed by pitch in a minute and a half
 SETTLE = (
-    "3 s"  # on the brakes until the engines give their take-off thrust, from harness.plant.preset.lined_up
+    "2 s"  # until the struts carry what the engines, which run as harness.plant.preset has them, ask of them
 )
 REVERSE_OFF = "60 kt"  # as on landing
 AHEAD = 100e3  # m

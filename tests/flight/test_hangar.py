@@ -21,8 +21,8 @@ def loads(monkeypatch):
 
 def test_a_parked_aircraft_is_flown_once_and_gives_the_same_numbers(loads):
     case = TakeOff(91e3)
-    hangar.park(root(), "gta", case.rate)
-    hangar.park(root(), "gta", case.rate)
+    hangar.park(hangar.Sort(root(), "gta", case.rate, own_rates=True))
+    hangar.park(hangar.Sort(root(), "gta", case.rate, own_rates=True))
     assert len(loads) == 1
     parked = row(fly_take_off(case))
     assert len(loads) == 1
@@ -31,10 +31,10 @@ def test_a_parked_aircraft_is_flown_once_and_gives_the_same_numbers(loads):
 
 
 def test_it_is_taken_for_flights_of_its_sort_only(loads):
-    hangar.park(root(), "gta", 120)
-    assert hangar.fresh(root(), "gta", 240).get_delta_t() == 1 / 240
+    hangar.park(hangar.Sort(root(), "gta", 120))
+    assert hangar.fresh(hangar.Sort(root(), "gta", 240)).get_delta_t() == 1 / 240
     hangar.park_again()
-    assert loads[1:] == [(root(), "gta", 240)] * 2
-    assert hangar.fresh(root(), "gta", 240).get_delta_t() == 1 / 240
-    assert hangar.fresh(root(), "gta", 120).get_delta_t() == 1 / 120
+    assert loads[1:] == [(hangar.Sort(root(), "gta", 240),)] * 2
+    assert hangar.fresh(hangar.Sort(root(), "gta", 240)).get_delta_t() == 1 / 240
+    assert hangar.fresh(hangar.Sort(root(), "gta", 120)).get_delta_t() == 1 / 120
     assert len(loads) == 3

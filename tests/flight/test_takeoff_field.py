@@ -54,7 +54,9 @@ def test_first_action_is_at_v1_a_second_after_the_failure(flights):
     v1 = flights.speeds.vr - 4.0
     stop = flights.fly(flights.stopping(v1, failure=True))
     decided, failed = stop.when("phase", "RTO"), stop.when("failure", "engine 1")
-    assert v1 <= stop.at(decided, "cas") < v1 + 0.05
+    before = int(decided)  # the speed peaks between two rows: what the two before say of the moment
+    gained = (stop.cas[before] - stop.cas[before - 1]) * (decided - before)
+    assert v1 - 0.01 <= stop.cas[before] + gained < v1 + 0.05
     assert 1.0 <= stop.at(decided, "time") - stop.at(failed, "time") < 1.4
     distance = flights.accelerate_stop(v1)
     assert distance == pytest.approx(stop.along[-1] + AT_V1 * v1, abs=1.0)

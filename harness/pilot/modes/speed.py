@@ -1,6 +1,7 @@
 """SPD: speed by thrust lever (THR), by flight path (PITCH), or not at all, the lever set by hand (OFF)."""
 
 from collections.abc import Mapping
+from math import inf
 
 from harness.numerics import LowPass, approach, clamp, quantised
 from harness.state import State
@@ -40,6 +41,12 @@ class SpeedMode:
             self._integral = self.lever
         self.sub_mode = sub_mode
 
+    def put(self, lever: float) -> None:
+        """Put the hand somewhere; in OFF the levers are there at once."""
+        self.hand = lever
+        if self.sub_mode == "OFF":
+            self.lever = quantised(lever)
+
     def observe(self, state: State, dt: float) -> None:
         """Keep the excess energy up to date; `dt` is the time since the last call, s."""
         if self._cas < 0.0:
@@ -50,7 +57,7 @@ class SpeedMode:
 
     def move(self, dt: float) -> None:
         """OFF and PITCH: let the levers follow the hand for `dt` seconds."""
-        step = self._hand_rate * dt if self.sub_mode == "PITCH" else 1e9
+        step = self._hand_rate * dt if self.sub_mode == "PITCH" else inf
         self.lever = quantised(approach(self.lever, self.hand, step))
 
     def update(self, state: State, target: float, path: float, dt: float) -> None:

@@ -1,0 +1,45 @@
+"""An aircraft's files for another frame rate, with its control laws, engines and systems at their own rates.
+
+JSBSim counts the rate of a channel (`execrate`) in frames: a law that runs 30 times a second at 120 frames a second
+runs 15 times at 60, and flies differently, by more than the integration does. Take-off distances change by 0.2 % from
+one frame rate to the double of it then, and by less than 0.05 % with these files.
+"""
+
+import re
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+WRITTEN_FOR = 120
+"""Frames a second at which the channels of systems/ and aircraft/ have the rates that their comments name."""
+ENGINES = "propulsion-"
+"""Systems that run in every other frame with WRITTEN_FOR frames a second and more: a stop from V1 is 4 m shorter or
+longer as reverse thrust is called for just before or just after an engine looks at its lever, which it does 20 times a
+second. Not in every frame: in the first one harness.plant.preset needs them to rest."""
+_EXECRATE = re.compile(r'execrate="(\d+)"')
+
+
+@contextmanager
+def own_rates(root: Path, aircraft: str, rate: int) -> Iterator[Path]:
+    """A root, as long as this lasts, in which the channels of `aircraft` keep their rates at `rate` frames a second.
+
+    A channel never runs more often than once a frame.
+    """
+    with TemporaryDirectory(prefix="harness-aircraft-") as folder:
+        copy = Path(folder)
+        for part in ("engine", "systems", f"aircraft/{aircraft}"):
+            shutil.copytree(root / part, copy / part)
+        for file in (*copy.glob("systems/*.xml"), *copy.glob("aircraft/*/*.xml")):
+            engines = file.name.startswith(ENGINES) and rate >= WRITTEN_FOR
+            text = file.read_text("utf-8")
+            file.write_text(
+                _EXECRATE.sub('execrate="2"' if engines else partial(_scaled, rate), text), "utf-8"
+            )
+        yield copy
+
+
+def _scaled(rate: int, found: re.Match[str]) -> str:
+    return f'execrate="{max(round(int(found[1]) * rate / WRITTEN_FOR), 1)}"'
