@@ -79,6 +79,7 @@ STEADY_BANK = 0.02  # rad
 LOW = 100.0  # m above the ground
 BRISK = 15.0  # m/s: faster than taxiing
 ROLLING = 1.0 / 12.0  # s between two turns of the outer loops on the runway and climbing away from it
+EXACT = 1.0 / 60.0  # s
 CLIMBING = 1.0  # m/s: the ground does not come nearer
 ON_WHEELS = 1.0  # m: with the wheels on the ground, whatever the struts do
 NOSE_UP = 0.02  # rad, attitude of the nose: level is up, standing is below level
@@ -90,8 +91,8 @@ def close_to_ground(height: float, cas: float) -> bool:
 
 
 def rolling_period(step: float) -> int:
-    """Pilot steps of `step` seconds in ROLLING, at least 1."""
-    return max(ceil(ROLLING / step - 0.01), 1)
+    """Pilot steps of `step` seconds in ROLLING, at least 1; 2 for who takes so short ones that he wants to be EXACT."""
+    return 2 if step <= EXACT else max(ceil(ROLLING / step - 0.01), 1)
 
 
 def rest(state: Motion, step: int, rolling: int) -> int:

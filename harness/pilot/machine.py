@@ -1,5 +1,6 @@
 """The graph of flight phases, and nothing else (AIAA 2010-7777 Figs. 4 to 6)."""
 
+from functools import cache
 from typing import Any
 
 from transitions.extensions import HierarchicalGraphMachine, HierarchicalMachine
@@ -46,13 +47,21 @@ def _arguments() -> dict[str, Any]:
     }
 
 
+@cache
+def _machine() -> _PhaseMachine:
+    """One for all flights of this process: making it takes as long as all the rest of a pilot."""
+    return _PhaseMachine(model=None, **_arguments())
+
+
 class PhaseGraph:
     """Where in the mission the pilot is. Only the edges of the graph can be taken."""
 
     state: str
 
     def __init__(self) -> None:
-        self._machine = _PhaseMachine(model=self, **_arguments())
+        machine = _machine()
+        machine.add_model(self, initial=START)
+        machine.remove_model(self)  # it acts on this model all the same, and does not keep it
 
     def enter(self, phase: str) -> None:
         """Move along the edge to `phase`.

@@ -15,10 +15,11 @@ from tempfile import TemporaryDirectory
 
 WRITTEN_FOR = 120
 """Frames a second at which the channels of systems/ and aircraft/ have the rates that their comments name."""
-ENGINES = "propulsion-"
-"""Systems that run in every other frame with WRITTEN_FOR frames a second and more: a stop from V1 is 4 m shorter or
-longer as reverse thrust is called for just before or just after an engine looks at its lever, which it does 20 times a
-second. Not in every frame: in the first one harness.plant.preset needs them to rest."""
+QUICK = 6
+"""Channels that run in every so many frames or more often, control laws and engines, run in every other frame with
+WRITTEN_FOR frames a second and more: a distance is 2 m shorter or longer as VR comes just before or just after the
+attitude law's turn, a stop 4 m as reverse thrust is called for before or after an engine's. Not in every frame: in the
+first one harness.plant.preset needs the engines to rest."""
 _EXECRATE = re.compile(r'execrate="(\d+)"')
 
 
@@ -33,13 +34,12 @@ def own_rates(root: Path, aircraft: str, rate: int) -> Iterator[Path]:
         for part in ("engine", "systems", f"aircraft/{aircraft}"):
             shutil.copytree(root / part, copy / part)
         for file in (*copy.glob("systems/*.xml"), *copy.glob("aircraft/*/*.xml")):
-            engines = file.name.startswith(ENGINES) and rate >= WRITTEN_FOR
             text = file.read_text("utf-8")
-            file.write_text(
-                _EXECRATE.sub('execrate="2"' if engines else partial(_scaled, rate), text), "utf-8"
-            )
+            file.write_text(_EXECRATE.sub(partial(_scaled, rate), text), "utf-8")
         yield copy
 
 
 def _scaled(rate: int, found: re.Match[str]) -> str:
-    return f'execrate="{max(round(int(found[1]) * rate / WRITTEN_FOR), 1)}"'
+    written = int(found[1])
+    frames = 2 if written <= QUICK and rate >= WRITTEN_FOR else max(round(written * rate / WRITTEN_FOR), 1)
+    return f'execrate="{frames}"'

@@ -96,10 +96,10 @@ def sensitivities(case: TakeOff, workers: int = 1) -> list[Sensitivity]:
     case = replace(case, vr=case.rotation_speed(manual))
     steps = [one.step * share for one in QUANTITIES for share in (1.0, -1.0, 0.5, -0.5)]
     changed = [
-        (*one.change(case, manual, step), step)
+        one.change(case, manual, step)
         for one, step in zip((one for one in QUANTITIES for _ in range(4)), steps, strict=True)
     ]
-    here, *flown = fly_all(_distance, [(case, manual, 0.0), *changed], workers, case)
+    here, *flown = fly_all(_distance, [(case, manual), *changed], workers, case)
     found = []
     for i, one in enumerate(QUANTITIES):
         up, down, half_up, half_down = flown[4 * i : 4 * i + 4]
@@ -120,16 +120,17 @@ def sensitivities(case: TakeOff, workers: int = 1) -> list[Sensitivity]:
     return found
 
 
-def _distance(changed: tuple[TakeOff, FlightManual, float]) -> float:
-    return distance(changed[0], changed[1])
+def _distance(asked: tuple[TakeOff, FlightManual]) -> float:
+    return distance(*asked)
 
 
-def early_rotation(case: TakeOff) -> dict[str, Any]:
+def early_rotation(case: TakeOff, workers: int = 1) -> dict[str, Any]:
     """How much longer the take-off distance gets when VR is 10 kt or 7 % early: AMC 25.107(e)(4)."""
     manual = read_manual(case.aircraft)
     vr = case.rotation_speed(manual)
     early = vr - min(EARLY, EARLY_SHARE * vr)
-    right, wrong = (distance(replace(case, vr=speed), manual) for speed in (vr, early))
+    asked = [(replace(case, vr=speed), manual) for speed in (vr, early)]
+    right, wrong = fly_all(_distance, asked, workers, case)
     longer = wrong / right - 1.0
     return {"vr_mps": vr, "early_vr_mps": early, "longer": longer, "met": longer <= MOST_LONGER}
 

@@ -50,7 +50,7 @@ def run_sensitivities(chosen: argparse.Namespace) -> int:
 
     case = fine(TakeOff(mass, **fields))
     check_all([case])
-    found, early = sensitivities(case, workers), early_rotation(case)
+    found, early = sensitivities(case, workers), early_rotation(case, workers)
     if chosen.json:
         print_json({"sensitivities": [one._asdict() for one in found], "early_rotation": early})
         return 0

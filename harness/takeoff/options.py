@@ -41,7 +41,7 @@ QUANTITIES = {
 
 
 def add_conditions(command: argparse.ArgumentParser, *, fine: bool = True) -> None:
-    """The options that say on which day and runway, and how it is begun; not `fine`, with 60 frames a second."""
+    """The options that say on which day and runway, and how it is begun; not `fine`, with 30 frames a second."""
     command.add_argument(
         "--start",
         choices=("brakes-held", "rolling"),

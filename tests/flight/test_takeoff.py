@@ -62,14 +62,14 @@ def test_lift_off_is_where_the_wheels_lose_contact(study):
 def test_the_step_between_two_frames_hardly_shows(rate, mass):
     """From where he rotates: the pilot is up to a step late, and all comes later by the way the aircraft goes in it.
 
-    So is the attitude law, which runs 30 times a second: that is the rest.
+    So is the attitude law, which runs 30 times a second with 30 frames, and a frame itself: that is the rest, 0.25 %.
     """
     coarse, fine = (fly_take_off(TakeOff(mass, rate=each, pilot_rate=min(each, 120))) for each in (rate, 480))
     for flown in (coarse, fine):
         assert 0.0 <= late(flown) < 1.1 * flown.vr / flown.case.pilot_rate
     for key in ("liftoff_distance_m", "distance_35ft_m", "distance_35m_m"):
         assert row(coarse)[key] - late(coarse) == pytest.approx(
-            row(fine)[key] - late(fine), abs=1.2 * coarse.vr / 30
+            row(fine)[key] - late(fine), abs=1.5 * coarse.vr / 30
         )
 
 

@@ -1,5 +1,8 @@
 """The phases and their edges are those of AIAA 2010-7777 Figs. 4 to 6."""
 
+from gc import collect
+from weakref import ref
+
 import pytest
 from transitions import MachineError
 
@@ -32,6 +35,16 @@ def test_a_nominal_mission_goes_through_the_graph() -> None:
     for phase in NOMINAL[1:]:
         graph.enter(phase)
     assert graph.state == END
+
+
+def test_two_flights_of_one_process_have_a_graph_each() -> None:
+    first, second = PhaseGraph(), PhaseGraph()
+    first.enter("T/O.run")
+    assert (first.state, second.state) == ("T/O.run", START)
+    gone = ref(first)
+    del first
+    collect()
+    assert gone() is None
 
 
 def test_rejected_take_off_and_missed_approach_are_edges() -> None:
