@@ -82,7 +82,8 @@ def fly(
             for see in watch:
                 see(state, commands, pilot)
             rest = 1 if instructor.waiting else pilot.rest
-            state = plant.advance(commands, min(rest, beyond - round(state.time / pilot.step)))
+            look = pilot.turns_next and rest == pilot.rest
+            state = plant.advance(commands, min(rest, beyond - round(state.time / pilot.step)), look=look)
             if state.time > time_limit:
                 raise TimeLimitError(
                     f"still flying after {time_limit:.0f} s", time=state.time, phase=pilot.phase

@@ -1,7 +1,7 @@
 """The mathematical pilot: reads checklists, carries out procedures, and flies with the modes they select (Fig. 2)."""
 
 from collections.abc import Callable, Mapping, Sequence
-from math import ceil, inf, nan
+from math import ceil, hypot, inf, nan
 
 from harness.errors import StuckError
 from harness.log.run import Event
@@ -115,6 +115,11 @@ class Pilot:
         """Pilot steps from the last call of `act` until it has to be called again."""
         return max(self._next - self._steps, 1)
 
+    @property
+    def turns_next(self) -> bool:
+        """Whether the outer loops turn at the next call: they need all of Motion."""
+        return self._next >= self._turn
+
     def act(self, state: State) -> Commands:
         """Decide, from the aircraft's state, what to command now.
 
@@ -145,9 +150,17 @@ class Pilot:
             self.control.turn_outer_loops(state, self.level_error, self._period * self.step)
             if state.main_on_ground and self._on_runway:
                 self.control.runway.check(state, self.phase)
-            self._period = rest(state, self._steps, self._rolling)
+            self._period = self._until_turn(state)
             self._turn = self._steps + self._period
         self._commands = self.control.command(state.time)
+
+    def _until_turn(self, state: State) -> int:
+        """Steps until the outer loops turn: no later than the next waypoint is passed."""
+        period = rest(state, self._steps, self._rolling)
+        if self._airborne_route and self.route.waypoints_remaining:
+            seconds = self.route.until_passage / max(hypot(state.velocity_north, state.velocity_east), 1.0)
+            period = max(min(period, int(seconds / self.step)), 1)
+        return period
 
     def _next_look(self, state: State) -> int:
         """The step at which the outer loops turn, or something before it is waited for."""

@@ -1,7 +1,7 @@
 """The navigation computer: from radio aids and position to the course, speed and level of the moment (Fig. 11)."""
 
 from collections.abc import Callable, Sequence
-from math import hypot, inf, pi, sin, sqrt, tan
+from math import cos, hypot, inf, pi, sin, sqrt, tan
 from typing import NamedTuple
 
 from harness.mission.model import Leg
@@ -66,6 +66,8 @@ class NavigationComputer:
         first = legs[0].fix
         _, _, self.remaining = earth.inverse(start.latitude, start.longitude, first.latitude, first.longitude)
         """Distance to the active waypoint, m."""
+        self.until_passage = self.remaining
+        """Distance along the track to where it is passed, m."""
         self.target_cas = 0.0
         self.localizer = receivers.NeedleReading(0.0, 0.0, False)
         self.glide_slope = receivers.NeedleReading(0.0, 0.0, False)
@@ -132,10 +134,11 @@ class NavigationComputer:
                 state.latitude, state.longitude, leg.fix.latitude, leg.fix.longitude
             )
             bearing_error = wrap(azimuth - state.heading)
-        self.remaining = distance
+        self.remaining = self.until_passage = distance
         if not self._hear(distance, state):
             self.guidance = self._reckoned(state)
             return False
+        self.until_passage = distance * cos(bearing_error)
         self.guidance = Guidance(True, bearing_error, 0.0, state.heading + bearing_error)
         return distance < HOMING_PASSAGE_RANGE and abs(bearing_error) > 0.5 * pi
 
@@ -150,12 +153,13 @@ class NavigationComputer:
         else:
             azimuth, _, distance = earth.inverse(line.latitude, line.longitude, latitude, longitude)
         along, across = earth.beside(distance, azimuth - line.course)
-        self.remaining = line.end - along
+        self.remaining = self.until_passage = line.end - along
         if not self._hear(distance, state):
             self.guidance = self._reckoned(state)
             return False
         self.guidance = Guidance(False, 0.0, across, self._course_here(state))
-        return self.remaining <= (self._lead(state) if leg.turn == "fly-by" else 0.0)
+        self.until_passage = self.remaining - (self._lead(state) if leg.turn == "fly-by" else 0.0)
+        return self.until_passage <= 0.0
 
     def _course_here(self, state: State) -> float:
         """The true course of the leg's line: meridians converge, it is another here than at the reference point."""

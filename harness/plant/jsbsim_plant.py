@@ -146,15 +146,16 @@ class JSBSimPlant:
         """The aircraft as it is now, renewed in place by `advance`."""
         return self._state
 
-    def advance(self, commands: Commands, steps: int = 1) -> State:
+    def advance(self, commands: Commands, steps: int = 1, *, look: bool = False) -> State:
         """Fly `steps` pilot steps under `commands`, no more than `rest` says if State is to be renewed.
 
+        `look` renews all of Motion, whatever is due.
         Raises NumericalError when the state is no longer finite, GroundImpactError when the aircraft hit the ground.
         """
         if commands is not self._written:
             self._write(commands)
         self._fly(steps)
-        if self._steps >= self._next_look:
+        if look or self._steps >= self._next_look:
             return self._look_around()
         if not self._instruments.glance(self._steps * self._step):
             raise self._not_finite()
