@@ -157,9 +157,9 @@ class Pilot:
     def _until_turn(self, state: State) -> int:
         """Steps until the outer loops turn: no later than the next waypoint is passed."""
         period = rest(state, self._steps, self._rolling)
-        if self._airborne_route and self.route.waypoints_remaining:
-            seconds = self.route.until_passage / max(hypot(state.velocity_north, state.velocity_east), 1.0)
-            period = max(min(period, int(seconds / self.step)), 1)
+        if self._airborne_route and self.route.waypoints_remaining and self.route.until_passage > 0.0:
+            speed = max(hypot(state.velocity_north, state.velocity_east), 1.0)
+            period = max(min(period, int(self.route.until_passage / speed / self.step)), 1)
         return period
 
     def _next_look(self, state: State) -> int:

@@ -1,8 +1,7 @@
 """An aircraft's files for another frame rate, with its control laws, engines and systems at their own rates.
 
 JSBSim counts the rate of a channel (`execrate`) in frames: a law that runs 30 times a second at 120 frames a second
-runs 15 times at 60, and flies differently, by more than the integration does. Take-off distances change by 0.2 % from
-one frame rate to the double of it then, and by less than 0.05 % with these files.
+runs 15 times at 60, and flies differently, by more than the integration does.
 """
 
 import re
@@ -12,6 +11,8 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+from harness.errors import OutputError
 
 WRITTEN_FOR = 120
 """Frames a second at which the channels of systems/ and aircraft/ have the rates that their comments name."""
@@ -25,17 +26,20 @@ _EXECRATE = re.compile(r'execrate="(\d+)"')
 
 @contextmanager
 def own_rates(root: Path, aircraft: str, rate: int) -> Iterator[Path]:
-    """A root, as long as this lasts, in which the channels of `aircraft` keep their rates at `rate` frames a second.
+    """A root, as long as this lasts, whose channels of `aircraft` have their own rates at `rate` frames a second.
 
-    A channel never runs more often than once a frame.
+    Raises OutputError when there is no room for it among the temporary files.
     """
-    with TemporaryDirectory(prefix="harness-aircraft-") as folder:
+    with TemporaryDirectory(prefix="harness-aircraft-", ignore_cleanup_errors=True) as folder:
         copy = Path(folder)
-        for part in ("engine", "systems", f"aircraft/{aircraft}"):
-            shutil.copytree(root / part, copy / part)
-        for file in (*copy.glob("systems/*.xml"), *copy.glob("aircraft/*/*.xml")):
-            text = file.read_text("utf-8")
-            file.write_text(_EXECRATE.sub(partial(_scaled, rate), text), "utf-8")
+        try:
+            for part in ("engine", "systems", f"aircraft/{aircraft}"):
+                shutil.copytree(root / part, copy / part)
+            for file in (*copy.glob("systems/*.xml"), *copy.glob("aircraft/*/*.xml")):
+                text = file.read_text("utf-8")
+                file.write_text(_EXECRATE.sub(partial(_scaled, rate), text), "utf-8")
+        except OSError as error:
+            raise OutputError(f"the aircraft cannot be copied: {error}", path=folder) from error
         yield copy
 
 
