@@ -3,8 +3,9 @@
 `wall_s` and `cpu_s` are `harness takeoff` as a user starts it, start-up included. `cpu_s_per_takeoff` is the processor
 time of one take-off of a study: a fork of a process that has everything loaded. `workers_ratio` is that of take-offs
 on two processes over that of one after the other. `frame_us` and `bare_share` say how much of it is JSBSim's frames;
-`c130_frame_us` is a frame of the C130 shipped with JSBSim, stepped between the take-offs: by it one machine, and one
-hour of it, is compared with another.
+`c130_frame_us` is a frame of the C130 shipped with JSBSim, stepped between the take-offs, and `c130_frames` how many of
+them a take-off costs: by it one machine, and one hour of it, is compared with another. A quiet machine steps the C130
+in 8 us, where 0.12 s are 15,000 frames.
 """
 
 import json
@@ -88,6 +89,7 @@ def main() -> None:
         "bare_share": one * median(counts) / each,
         "workers_ratio": median(together) / (sum(alone) / len(alone)),
         "c130_frame_us": median(others) * 1e6,
+        "c130_frames": median(flight / step for flight, step in zip(alone, others, strict=True)),
     }
     print(json.dumps({key: round(value, 4) for key, value in result.items()}))
 
