@@ -86,7 +86,7 @@ NOSE_UP = 0.02  # rad, attitude of the nose: level is up, standing is below leve
 
 
 def close_to_ground(height: float, cas: float) -> bool:
-    """Whether everything has to be watched at every pilot step: on and just above the runway."""
+    """Whether the pilot looks, and the log records, many times a second: on and just above the runway."""
     return height < LOW and cas > BRISK
 
 

@@ -40,8 +40,8 @@ class TakeOff:
     `friction` is a factor on the rolling friction.
     Headwind is positive against the take-off, crosswind positive from the right, slope positive uphill.
     The pilot rotates at the first of his steps at or above VR: with 30 a second up to 2 m late, with 120 half a metre.
-    Distances with 30 frames a second are those with 480 within 2 m (tested): what a trade study needs; `fine` is for
-    one whose numbers are searched or compared.
+    Besides that, distances with 30 frames a second are those with 480 within 3 m (tested): what a trade study needs;
+    `fine` is for one whose numbers are searched or compared.
     """
 
     mass: float
